@@ -15,27 +15,24 @@ from dolfinx.mesh import CellType
 
 from scenes import Blocks
 
+# What must be raised, by what is done and what must be said of it: which argument, what was wrong,
+# what to do
+type Rows = dict[type[Exception], list[tuple[Callable[[], Any], str]]]
+
 
 class Row(NamedTuple):
-    """One bad input.
+    """One bad input."""
 
-    Attributes:
-        name: What is bad.
-        do: Passes it.
-        error: What must be raised.
-        message: What it must say: which argument, what was wrong, what to do.
-    """
-
-    name: str
-    do: Callable[[], Any]
     error: type[Exception]
+    do: Callable[[], Any]
     message: str
 
 
-def table(rows: list[Row]) -> pytest.MarkDecorator:
-    """Parametrise a test by the rows."""
-    assert len({row.name for row in rows}) == len(rows)
-    return pytest.mark.parametrize("row", rows, ids=[row.name for row in rows])
+def table(*tables: Rows) -> pytest.MarkDecorator:
+    """Parametrise a test by the rows of some tables."""
+    every = [item for rows in tables for item in rows.items()]
+    rows = [Row(error, *pair) for error, pairs in every for pair in pairs]
+    return pytest.mark.parametrize("row", rows, ids=[row.message[:60] for row in rows])
 
 
 def refused(row: Row) -> None:

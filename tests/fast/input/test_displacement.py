@@ -12,7 +12,7 @@ import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
-from inputs.rows import Row, problem, refused, scene, table, with_
+from inputs.rows import problem, refused, scene, table, with_
 from meshes import Tag
 from story import displacement, fix
 
@@ -83,140 +83,89 @@ def inside(blocks):
 WANTED = r'contact needs.*functionspace\(mesh, \("Lagrange", 1, \(2,\)\)\)'
 BCS = r"bcs\[0\] is a condition on another function space than that of u: make it with"
 FINITE = "bcs prescribe displacements that are not finite, at 3 dofs: give finite numbers"
-ROWS = [
-    Row(
-        "u: an array",
-        lambda: problem(u=np.zeros(3)),
-        TypeError,
-        "u must be a dolfinx.fem.Function, not ndarray",
-    ),
-    Row(
-        "u: scalar",
-        with_("u", lambda b: fem.Function(space(b, "Lagrange", 1))),
-        ValueError,
-        r"u has values of shape \(\), but the displacement of this mesh needs \(2,\)",
-    ),
-    Row(
-        "u: of three components",
-        with_("u", lambda b: fem.Function(space(b, "Lagrange", 1, (3,)))),
-        ValueError,
-        r"u has values of shape \(3,\), but",
-    ),
-    Row(
-        "u: cubic",
-        with_("u", lambda b: fem.Function(space(b, "Lagrange", 3, (2,)))),
-        ValueError,
-        f"u is of degree 3; {WANTED}",
-    ),
-    Row(
-        "u: of edges, with values of the right shape",
-        with_("u", lambda b: fem.Function(space(b, "N1curl", 1))),
-        ValueError,
-        f"u is not in a continuous Lagrange space; {WANTED}",
-    ),
-    Row(
-        "u: discontinuous",
-        with_("u", lambda b: fem.Function(space(b, "DG", 1, (2,)))),
-        ValueError,
-        f"u is not in a continuous Lagrange space; {WANTED}",
-    ),
-    Row("u: mixed", with_("u", mixed), ValueError, "u is in a mixed space or a part of one"),
-    Row(
-        "u: a part of a mixed one",
-        with_("u", lambda b: mixed(b).sub(0)),
-        ValueError,
-        "u is in a mixed space or a part of one",
-    ),
-    Row(
-        "u: single precision",
-        lambda: problem(u=single()),
-        TypeError,
-        "u holds float32 values, but contactx needs float64",
-    ),
-    Row(
-        "u: complex",
-        with_("u", lambda b: fem.Function(b.u.function_space, dtype=np.complex128)),
-        TypeError,
-        "u holds complex128 values, but contactx needs float64",
-    ),
-    Row(
-        "u: on a shell",
-        lambda: problem(u=shell()),
-        ValueError,
-        "u is on a mesh of cells of dimension 2 in 3 dimensions; contact needs",
-    ),
-    Row(
-        "u: NaN",
-        start(np.nan),
-        ValueError,
-        r"the displacement u is not finite at 1 dofs, first at node \d+ of the mesh.*: repair",
-    ),
-    Row(
-        "u: infinite",
-        start(np.inf),
-        ValueError,
-        r"the displacement u is not finite at 1 dofs, first at node \d+ of the mesh.*: repair",
-    ),
-    Row(
-        "mesh: NaN",
-        coordinates(np.nan),
-        ValueError,
-        r"coordinates of the mesh are not finite at 1 dofs, first at node .*: repair the mesh",
-    ),
-    Row(
-        "mesh: infinite",
-        coordinates(-np.inf),
-        ValueError,
-        "coordinates of the mesh are not finite at 1 dofs",
-    ),
-    Row(
-        "bcs: one alone",
-        with_("bcs", lambda b: b.bcs[0]),
-        TypeError,
-        r"bcs must be a list of conditions: write bcs=\[bc\]",
-    ),
-    Row(
-        "bcs: a text",
-        lambda: problem(bcs="bcs"),
-        TypeError,
-        "bcs must be a list of fem.dirichletbc, not str",
-    ),
-    Row(
-        "bcs: numbers",
-        lambda: problem(bcs=[1.0]),
-        TypeError,
-        r"bcs\[0\] is a float: give a fem.dirichletbc",
-    ),
-    Row("bcs: of another mesh", with_("bcs", lambda b: scene().bcs), ValueError, BCS),
-    Row(
-        "bcs: of an equal space",
-        with_(
-            "bcs",
-            lambda b: [fix(fem.Function(space(b, *VECTORS)), b.tags, 0, 0.0, Tag.LOWER_BOTTOM)],
+ROWS = {
+    TypeError: [
+        (lambda: problem(u=np.zeros(3)), "u must be a dolfinx.fem.Function, not ndarray"),
+        (lambda: problem(u=single()), "u holds float32 values, but contactx needs float64"),
+        (
+            with_("u", lambda b: fem.Function(b.u.function_space, dtype=np.complex128)),
+            "u holds complex128 values, but contactx needs float64",
         ),
-        ValueError,
-        BCS,
-    ),
-    Row(
-        "bcs: of a quadratic space",
-        with_(
-            "bcs",
-            lambda b: [
-                fix(fem.Function(space(b, "Lagrange", 2, (2,))), b.tags, 0, 0.0, Tag.LOWER_BOTTOM)
-            ],
+        (with_("bcs", lambda b: b.bcs[0]), r"bcs must be a list of conditions: write bcs=\[bc\]"),
+        (lambda: problem(bcs="bcs"), "bcs must be a list of fem.dirichletbc, not str"),
+        (lambda: problem(bcs=[1.0]), r"bcs\[0\] is a float: give a fem.dirichletbc"),
+    ],
+    ValueError: [
+        (
+            with_("u", lambda b: fem.Function(space(b, "Lagrange", 1))),
+            r"u has values of shape \(\), but the displacement of this mesh needs \(2,\)",
         ),
-        ValueError,
-        BCS,
-    ),
-    Row("bcs: NaN", prescribed(np.nan), ValueError, FINITE),
-    Row("bcs: infinite", prescribed(-np.inf), ValueError, FINITE),
-    Row(
-        "bcs: constrained inside an obstacle",
-        lambda: inside(scene()),
-        ValueError,
-        r"contact 0 .* is over-constrained: .* constrain 3 slave nodes inside the rigid obstacle",
-    ),
-]
+        (
+            with_("u", lambda b: fem.Function(space(b, "Lagrange", 1, (3,)))),
+            r"u has values of shape \(3,\), but",
+        ),
+        (
+            with_("u", lambda b: fem.Function(space(b, "Lagrange", 3, (2,)))),
+            f"u is of degree 3; {WANTED}",
+        ),
+        (
+            with_("u", lambda b: fem.Function(space(b, "N1curl", 1))),
+            f"u is not in a continuous Lagrange space; {WANTED}",
+        ),
+        (
+            with_("u", lambda b: fem.Function(space(b, "DG", 1, (2,)))),
+            f"u is not in a continuous Lagrange space; {WANTED}",
+        ),
+        (with_("u", mixed), "u is in a mixed space or a part of one"),
+        (with_("u", lambda b: mixed(b).sub(0)), "u is in a mixed space or a part of one"),
+        (
+            lambda: problem(u=shell()),
+            "u is on a mesh of cells of dimension 2 in 3 dimensions; contact needs",
+        ),
+        (
+            start(np.nan),
+            r"the displacement u is not finite at 1 dofs, first at node \d+ of the mesh.*: repair",
+        ),
+        (
+            start(np.inf),
+            r"the displacement u is not finite at 1 dofs, first at node \d+ of the mesh.*: repair",
+        ),
+        (
+            coordinates(np.nan),
+            r"coordinates of the mesh are not finite at 1 dofs, first at node .*: repair the mesh",
+        ),
+        (coordinates(-np.inf), "coordinates of the mesh are not finite at 1 dofs"),
+        (with_("bcs", lambda b: scene().bcs), BCS),
+        (
+            with_(
+                "bcs",
+                lambda b: [fix(fem.Function(space(b, *VECTORS)), b.tags, 0, 0.0, Tag.LOWER_BOTTOM)],
+            ),
+            BCS,
+        ),
+        (
+            with_(
+                "bcs",
+                lambda b: [
+                    fix(
+                        fem.Function(space(b, "Lagrange", 2, (2,))),
+                        b.tags,
+                        0,
+                        0.0,
+                        Tag.LOWER_BOTTOM,
+                    )
+                ],
+            ),
+            BCS,
+        ),
+        (prescribed(np.nan), FINITE),
+        (prescribed(-np.inf), FINITE),
+        (
+            lambda: inside(scene()),
+            "contact 0 .* is over-constrained: .* constrain 3 slave nodes inside the rigid obst",
+        ),
+    ],
+}
 
 
 @table(ROWS)

@@ -8,7 +8,7 @@ import pytest
 from dolfinx import fem
 
 import plot
-from inputs.rows import Row, refused, scene, table
+from inputs.rows import refused, scene, table
 
 LABELS = ("x", "y")
 
@@ -52,137 +52,45 @@ def gap(pair):
 
 LINE = {"a": ([1, 2], [1, 2])}
 SQUARE = np.array([[0.0, 0], [1, 0], [0, 1]])
-ROWS = [
-    Row(
-        "picture: u as an array",
-        bodies(u=np.zeros(3)),
-        TypeError,
-        "u must be a fem.Function, not ndarray",
-    ),
-    Row(
-        "picture: NaN displacement",
-        bodies(u=spoilt(np.nan)),
-        ValueError,
-        "u is not finite at 1 dofs; replace what is NaN",
-    ),
-    Row(
-        "picture: a gap",
-        bodies(scalar=lambda pair: gap(pair)),
-        ValueError,
-        "scalar is not finite at .* dofs; .* gap is NaN off its slave surface",
-    ),
-    Row(
-        "picture: a vector",
-        bodies(scalar=lambda pair: pair.u),
-        ValueError,
-        "scalar is of .*; interpolate it into a space of",
-    ),
-    Row(
-        "picture: another mesh",
-        bodies(scalar=lambda pair: gap(scene())),
-        ValueError,
-        "scalar is on another mesh than u",
-    ),
-    Row("picture: a path", bodies(path=3), TypeError, "path is 3: give the path of a file"),
-    Row("picture: a scale", bodies(scale="a"), TypeError, "scale is str 'a'; give 1 numbers"),
-    Row(
-        "picture: colours",
-        bodies(clim=(2.0, 1.0)),
-        ValueError,
-        r"clim is \(2\.0, 1\.0\); give the lower number first",
-    ),
-    Row(
-        "picture: a camera nowhere",
-        bodies(camera=(0, 0, 0)),
-        ValueError,
-        r"camera is \(0, 0, 0\); give a direction",
-    ),
-    Row(
-        "picture: a camera in the plane",
-        bodies(camera=(0, 1)),
-        ValueError,
-        r"camera is \(0, 1\); give 3 finite numbers",
-    ),
-    Row(
-        "picture: no length",
-        bodies(stretch=(0, 1, 1)),
-        ValueError,
-        r"stretch is \(0, 1, 1\); give positive factors",
-    ),
-    Row(
-        "picture: a mirror",
-        bodies(mirror=("z",)),
-        ValueError,
-        "mirror holds 'z'; give names of axes",
-    ),
-    Row(
-        "picture: a box",
-        bodies(box=(1, 2)),
-        ValueError,
-        r"box is \(1, 2\); give its lowest and its highest",
-    ),
-    Row("curves: a list", curves([1]), TypeError, r'computed is a list; give \{"name": \(x, y\)\}'),
-    Row(
-        "curves: a number",
-        curves({"a": 3}),
-        TypeError,
-        r"computed\['a'\] is int 3; give positions and values",
-    ),
-    Row(
-        "curves: shapes",
-        curves({"a": ([1, 2], [1])}),
-        ValueError,
-        r"computed\['a'\] has positions of shape \(2,\) and values",
-    ),
-    Row(
-        "curves: one label",
-        curves(LINE, labels=("x",)),
-        TypeError,
-        r"labels is \('x',\); give the names of both axes",
-    ),
-    Row(
-        "curves: a mark",
-        curves(LINE, marks={"m": 3}),
-        TypeError,
-        r"marks\['m'\] is int 3; give 2 numbers",
-    ),
-    Row(
-        "curves: a close-up",
-        curves(LINE, close_up=(2.0, 1.0)),
-        ValueError,
-        r"close_up is .*; give the lower number first",
-    ),
-    Row(
-        "map: places",
-        face(SQUARE[:, :1], np.zeros(3)),
-        ValueError,
-        r"places has shape \(3, 1\) and values \(3,\); give",
-    ),
-    Row(
-        "map: values",
-        face(SQUARE, np.zeros(4)),
-        ValueError,
-        r"places has shape \(3, 2\) and values \(4,\); give",
-    ),
-    Row(
-        "map: NaN",
-        face(SQUARE, np.full(3, np.nan), kinds=None, triangles=np.array([[0, 1, 2]])),
-        ValueError,
-        "values are not all finite; leave out",
-    ),
-    Row(
-        "map: triangles",
-        face(SQUARE, np.zeros(3), kinds=None, triangles=np.array([[0, 1, 7]])),
-        ValueError,
-        "triangles have nodes that are none of 0 to 2",
-    ),
-    Row(
-        "map: neither",
-        face(SQUARE, np.zeros(3), kinds=None),
-        ValueError,
-        "triangles and kinds are None; give triangles",
-    ),
-]
+ROWS = {
+    TypeError: [
+        (bodies(u=np.zeros(3)), "u must be a fem.Function, not ndarray"),
+        (bodies(path=3), "path is 3: give the path of a file"),
+        (bodies(scale="a"), "scale is str 'a'; give 1 numbers"),
+        (curves([1]), r'computed is a list; give \{"name": \(x, y\)\}'),
+        (curves({"a": 3}), r"computed\['a'\] is int 3; give positions and values"),
+        (curves(LINE, labels=("x",)), r"labels is \('x',\); give the names of both axes"),
+        (curves(LINE, marks={"m": 3}), r"marks\['m'\] is int 3; give 2 numbers"),
+    ],
+    ValueError: [
+        (bodies(u=spoilt(np.nan)), "u is not finite at 1 dofs; replace what is NaN"),
+        (
+            bodies(scalar=lambda pair: gap(pair)),
+            "scalar is not finite at .* dofs; .* gap is NaN off its slave surface",
+        ),
+        (bodies(scalar=lambda pair: pair.u), "scalar is of .*; interpolate it into a space of"),
+        (bodies(scalar=lambda pair: gap(scene())), "scalar is on another mesh than u"),
+        (bodies(clim=(2.0, 1.0)), r"clim is \(2\.0, 1\.0\); give the lower number first"),
+        (bodies(camera=(0, 0, 0)), r"camera is \(0, 0, 0\); give a direction"),
+        (bodies(camera=(0, 1)), r"camera is \(0, 1\); give 3 finite numbers"),
+        (bodies(stretch=(0, 1, 1)), r"stretch is \(0, 1, 1\); give positive factors"),
+        (bodies(mirror=("z",)), "mirror holds 'z'; give names of axes"),
+        (bodies(box=(1, 2)), r"box is \(1, 2\); give its lowest and its highest"),
+        (curves({"a": ([1, 2], [1])}), r"computed\['a'\] has positions of shape \(2,\) and values"),
+        (curves(LINE, close_up=(2.0, 1.0)), r"close_up is .*; give the lower number first"),
+        (face(SQUARE[:, :1], np.zeros(3)), r"places has shape \(3, 1\) and values \(3,\); give"),
+        (face(SQUARE, np.zeros(4)), r"places has shape \(3, 2\) and values \(4,\); give"),
+        (
+            face(SQUARE, np.full(3, np.nan), kinds=None, triangles=np.array([[0, 1, 2]])),
+            "values are not all finite; leave out",
+        ),
+        (
+            face(SQUARE, np.zeros(3), kinds=None, triangles=np.array([[0, 1, 7]])),
+            "triangles have nodes that are none of 0 to 2",
+        ),
+        (face(SQUARE, np.zeros(3), kinds=None), "triangles and kinds are None; give triangles"),
+    ],
+}
 
 
 @table(ROWS)
