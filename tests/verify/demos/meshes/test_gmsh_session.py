@@ -1,12 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Tests that gmsh is left as it was found."""
+"""Gmsh is left as it was found, and its errors reach every rank."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
-from types import ModuleType
+
+from mpi4py import MPI
 
 import gmsh
 import pytest
@@ -14,11 +14,12 @@ import pytest
 from dolfinx.mesh import CellType
 
 from meshes import Tag, blocks, hertz_sphere
+from meshes.build import build_mesh
 from meshes.gmsh_session import gmsh_session
 
 
 @pytest.fixture
-def running_gmsh() -> Iterator[ModuleType]:
+def running_gmsh():
     """Provide a gmsh that the user has started, with a model and options of theirs."""
     gmsh.initialize(readConfigFiles=False, interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
@@ -28,7 +29,7 @@ def running_gmsh() -> Iterator[ModuleType]:
     gmsh.finalize()
 
 
-def test_gmsh_is_finalised() -> None:
+def test_gmsh_is_finalised():
     """A gmsh that we started is gone at the end."""
     with gmsh_session("test"):
         assert gmsh.isInitialized()
@@ -36,7 +37,7 @@ def test_gmsh_is_finalised() -> None:
     assert not gmsh.isInitialized()
 
 
-def test_gmsh_is_finalised_after_an_error() -> None:
+def test_gmsh_is_finalised_after_an_error():
     """Also after an error, which comes through unchanged."""
     with pytest.raises(RuntimeError, match="inside"), gmsh_session("test"):
         raise RuntimeError("inside")
@@ -44,7 +45,7 @@ def test_gmsh_is_finalised_after_an_error() -> None:
 
 
 @pytest.mark.parametrize("name", ["mine", None])
-def test_user_model_survives(running_gmsh: ModuleType, name: str | None) -> None:
+def test_user_model_survives(running_gmsh, name):
     """The user's model is current again, whether it has a name or not, and so are options."""
     if name is not None:
         running_gmsh.model.add(name)
@@ -59,22 +60,32 @@ def test_user_model_survives(running_gmsh: ModuleType, name: str | None) -> None
     assert running_gmsh.option.getNumber("Mesh.MeshSizeFactor") == 0.5
 
 
-def test_user_options_do_not_change_our_mesh(running_gmsh: ModuleType) -> None:
+def test_user_options_do_not_change_our_mesh(running_gmsh):
     """The mesh is the same as with a fresh gmsh."""
     mesh = hertz_sphere(0.04).mesh
     assert mesh.geometry.index_map().size_global == 907
     assert mesh.geometry.cmaps[0].degree == 1
 
 
-def test_missing_gmsh_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_gmsh_says_how_to_install_it(monkeypatch):
     """The message names the extra, on every rank."""
     monkeypatch.setitem(sys.modules, "gmsh", None)
     with pytest.raises((ImportError, RuntimeError), match=r"pip install contactx\[demo\]"):
         hertz_sphere(0.2)
 
 
-def test_tags_name_their_groups() -> None:
+def test_tags_name_their_groups():
     """The physical groups carry the names of the tags."""
     groups = blocks(CellType.triangle, (1, 1), (1, 1)).physical_groups
     assert groups["upper_contact"].tag == Tag.UPPER_CONTACT
     assert groups["lower"].dim == 2
+
+
+def test_error_of_a_recipe_reaches_every_rank():
+    """No rank waits for a mesh that will not come."""
+
+    def recipe(gmsh):
+        raise RuntimeError("no such shape")
+
+    with pytest.raises(RuntimeError, match="no such shape"):
+        build_mesh("test", 2, recipe, MPI.COMM_WORLD)

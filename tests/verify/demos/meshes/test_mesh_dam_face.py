@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The mesh of a dam's face: slabs on the plane of the rockfill's face, in their valley."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -76,12 +74,3 @@ def test_all_cells_have_a_volume(data):
     points = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
     values = fem.Expression(J, points).eval(data.mesh, np.arange(len(data.cell_tags.indices)))
     assert np.all(values > 0) or np.all(values < 0)
-
-
-def test_measures_that_are_none_are_refused():
-    with pytest.raises(ValueError, match=r"bed is 1\.5"):
-        replace(MODEL, bed=1.5)
-    with pytest.raises(ValueError, match="shortest"):
-        replace(MODEL, shortest=0.0)
-    with pytest.raises(TypeError, match="give a DamFace"):
-        dam_face(3)
