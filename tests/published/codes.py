@@ -24,6 +24,7 @@ from published.drawing import deformed, surface
 from published.grids import faces
 from published.record import Answer, Case, solve, steps
 from scenes.materials import of_bodies, st_venant_kirchhoff
+from scenes.problems import make_problem, pair_of
 
 ASTER = "Code_Aster, astest/"
 CALCULIX = "CalculiX, test/"
@@ -62,7 +63,7 @@ def _plate() -> tuple[fem.Function, cx.Contact, list[int]]:
         fem.dirichletbc(fem.Function(V.sub(1).collapse()[0]), corner, V.sub(1)),
     ]
     contact = cx.Contact(cx.Surface(tags, 1), cx.Plane((0, 0), (0, 1)), friction=1.0)
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="plate_")
+    problem = make_problem(F, u, [contact], bcs)
 
     def update(t: float) -> None:
         pressed.value[1] = -50.0 * t
@@ -102,7 +103,7 @@ def _pad(share: float, springs: bool) -> tuple[fem.Function, cx.Contact, list[in
         F += 4.0 / 20 * ufl.dot(u, t) * ufl.dot(v, t) * ds(4)
     plane = cx.Plane(tuple(5 * up), tuple(up))
     contact = cx.Contact(cx.Surface(tags, 1), plane, friction=0.3)
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=[], petsc_options_prefix="pad_")
+    problem = make_problem(F, u, [contact], [])
     down.value[:] = -300 * up
     iterations = solve(problem)
     push.value[:] = share * 0.3 * 300 * 40 / 20 * along
@@ -143,8 +144,8 @@ def _hueeber(on_upper: bool) -> tuple[fem.Function, list[int]]:
     bcs = [story.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(2)]
     bcs.append(story.fix(u, tags, 0, 0.0, Tag.UPPER_TOP))
     bcs.append(story.fix(u, tags, 1, 0.0 if on_upper else -5e-4, Tag.UPPER_TOP))
-    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="squares_")
+    contact = pair_of(tags)
+    problem = make_problem(F, u, [contact], bcs)
     return u, solve(problem)
 
 
@@ -185,14 +186,8 @@ def four_c() -> Answer:
     bcs = [story.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)]
     bcs += [story.fix(u, tags, i, 0.0, Tag.UPPER_TOP) for i in range(2)]
     moved = story.fix(u, tags, 2, 0.0, Tag.UPPER_TOP)
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        method="surface-to-surface",
-    )
-    problem = cx.ContactProblem(
-        F, u, contacts=[contact], bcs=[*bcs, moved], petsc_options_prefix="cube_"
-    )
+    contact = pair_of(tags, method="surface-to-surface")
+    problem = make_problem(F, u, [contact], [*bcs, moved])
 
     def update(t: float) -> None:
         moved.g.value[...] = -0.14 * t

@@ -24,6 +24,7 @@ from meshes.build import build_mesh
 from published.drawing import curve, deformed
 from published.record import Answer, Case, solve
 from scenes.materials import st_venant_kirchhoff
+from scenes.problems import make_problem, pair_of
 
 
 def _pin(gmsh: ModuleType, radius: float) -> int:
@@ -127,8 +128,8 @@ def persson() -> Answer:
         story.fix(u, tags, 0, 0.0, Tag.LOWER_BOTTOM),
         story.fix(u, tags, 1, 0.0, Tag.LOWER_BOTTOM),
     ]
-    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="persson_")
+    contact = pair_of(tags)
+    problem = make_problem(F, u, [contact], bcs)
     iterations = solve(problem)
     p = story.nodal_pressure(contact)
     place = u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
@@ -184,7 +185,7 @@ def loaded_pin(h: float = 0.04) -> Answer:
     contact = cx.Contact(
         cx.Surface(tags, Tag.LOWER_CONTACT), cx.Surface(tags, Tag.UPPER_CONTACT), friction=0.1
     )
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="pin_")
+    problem = make_problem(F, u, [contact], bcs)
     iterations = solve(problem)
     slaves = contact.slave_nodes
     place = u.function_space.tabulate_dof_coordinates()[slaves]

@@ -24,6 +24,7 @@ from published.drawing import deformed
 from published.grids import faces
 from published.record import Answer, Case, steps
 from scenes.materials import st_venant_kirchhoff
+from scenes.problems import make_problem
 
 # Over the radius of the ring's middle, and over E' I / R^3
 THICKNESS, PRESSURE = 0.01, 8.0
@@ -84,9 +85,7 @@ def ring() -> Answer:
     ds = ufl.Measure("ds", domain=data.mesh, subdomain_data=tags)
     F += pressure * ufl.inner(pushed, ufl.TestFunction(u.function_space)) * ds(Tag.UPPER_CONTACT)
     contact = cx.Contact.all(tags, int(Tag.UPPER_TOP))
-    problem = cx.ContactProblem(
-        F, u, contacts=[contact], bcs=_symmetry(u), petsc_options_prefix="ring_"
-    )
+    problem = make_problem(F, u, [contact], _symmetry(u))
 
     def update(t: float) -> None:
         pressure.value = t * PRESSURE
@@ -150,7 +149,7 @@ def torus() -> Answer:
     bcs = [_held(V, axis) for axis in range(3)]
     surface = cx.Surface(tags, 1, 2, 3)
     contact = cx.Contact(surface, surface)
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="torus_")
+    problem = make_problem(F, u, [contact], bcs)
 
     def update(t: float) -> None:
         load.value, pinch.value = t * PRESSURE, np.sin(np.pi * t)

@@ -29,6 +29,7 @@ import story
 from meshes.grids import graded
 from published.drawing import curve, surface
 from published.record import Answer, Case, solve, steps
+from scenes.problems import make_problem
 
 E, NU = 1.0, 0.3
 MODULUS = E / (1 - NU**2)
@@ -134,9 +135,7 @@ class HalfSpace:
             options["friction"] = self.friction
         self.place = fem.Constant(domain, (*[0.0] * (gdim - 1), start))
         self.contact = cx.Contact(cx.Surface(tags, 1), obstacle(self.place), **options)
-        self.problem = cx.ContactProblem(
-            F, u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="gallery_"
-        )
+        self.problem = make_problem(F, u, [self.contact], bcs)
         self.x = V.tabulate_dof_coordinates()[self.contact.slave_nodes]
 
     @property

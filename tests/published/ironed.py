@@ -37,6 +37,7 @@ from meshes.build import build_mesh
 from published.drawing import deformed
 from published.record import Answer, Case
 from scenes.materials import of_bodies
+from scenes.problems import make_problem
 
 HARD, SOFT, NU, FRICTION = 68.96e8, 6.896e8, 0.32, 0.3
 DEPTH, SPEED = 1.0, 10.0
@@ -140,12 +141,8 @@ def _run(times: Sequence[float], block_is_slave: bool, method: str) -> _Run:
     else:
         sides, sign = (cx.Surface(tags, Tag.UPPER_CONTACT), block), -1
     contact = cx.Contact(*sides, friction=FRICTION, method=method)
-    problem = cx.ContactProblem(
-        simo_miehe(u, of_bodies(data, HARD, SOFT), NU),
-        u,
-        contacts=[contact],
-        bcs=[*moved, *held],
-        petsc_options_prefix="ironed_",
+    problem = make_problem(
+        simo_miehe(u, of_bodies(data, HARD, SOFT), NU), u, [contact], [*moved, *held]
     )
 
     def update(t: float) -> None:

@@ -23,6 +23,7 @@ from meshes.grids import graded
 from published.drawing import curve
 from published.grids import faces
 from published.record import Answer, Case, steps
+from scenes.problems import make_problem
 
 E, NU, FRICTION = 1.0, 0.5, 0.5
 MODULUS = E / (1 - NU**2)
@@ -76,9 +77,7 @@ def carter(h: float = 0.125) -> Answer:
     spun = fem.Constant(domain, 0.0)
     roller = cx.Sphere(centre, RADIUS, angle=spun)
     contact = cx.Contact(cx.Surface(tags, 1), roller, friction=FRICTION)
-    problem = cx.ContactProblem(
-        F, w, contacts=[contact], bcs=bcs, petsc_options_prefix="carter_", displacement=0
-    )
+    problem = make_problem(F, w, [contact], bcs, displacement=0)
     creepage = CREEP * FRICTION / RADIUS
     rolls = round(WAY / h)
 

@@ -40,6 +40,7 @@ import story
 from meshes.build import build_mesh
 from published.drawing import deformed
 from published.record import Answer, Case
+from scenes.problems import make_problem
 
 E, NU, YIELD, K, N = 70.5e3, 0.342, 194.0, 550.4, 0.223
 HALF, THICK = 60.0, 1.0
@@ -223,7 +224,7 @@ def bent(
         )
         for tool, side in ((_HOLLOW, _BOTTOM), (_ROUND, _TOP))
     )
-    problem = cx.ContactProblem(F, u, contacts=[die, punch], bcs=bcs, petsc_options_prefix="sheet_")
+    problem = make_problem(F, u, [die, punch], bcs)
     x = V.tabulate_dof_coordinates()
     # The outer part of a leg is straight
     leg = [np.argmin(np.linalg.norm(x - [a, THICK / 2, 0], axis=1)) for a in (HALF - 8, HALF)]

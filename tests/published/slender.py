@@ -23,6 +23,7 @@ from published.drawing import curve, deformed
 from published.grids import faces
 from published.record import Answer, Case, solve, steps
 from scenes import slender
+from scenes.problems import make_problem, pair_of
 
 
 def belt() -> Answer:
@@ -61,7 +62,7 @@ def lifted() -> Answer:
     F += weight / thick * ufl.TestFunction(V)[1] * ufl.dx
     bcs = [story.fix(u, tags, 0, 0.0, 3)]
     contact = cx.Contact(cx.Surface(tags, 1), cx.Plane((0, 0), (0, 1)))
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="lifted_")
+    problem = make_problem(F, u, [contact], bcs)
 
     def update(t: float) -> None:
         up.value[1] = t * weight * lift / 2 / thick
@@ -123,8 +124,8 @@ def receding() -> Answer:
         story.fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0, Tag.LOWER_BOTTOM),
         story.fix(u, tags, 1, 0.0, Tag.LOWER_BOTTOM),
     ]
-    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="layer_")
+    contact = pair_of(tags)
+    problem = make_problem(F, u, [contact], bcs)
     iterations = solve(problem)
     place = u.function_space.tabulate_dof_coordinates()[contact.slave_nodes, 0]
     p = story.nodal_pressure(contact)

@@ -23,6 +23,7 @@ from meshes.build import build_mesh
 from published.drawing import curve, deformed
 from published.record import Answer, Case, solve, steps
 from scenes.materials import st_venant_kirchhoff
+from scenes.problems import make_problem
 
 # Faces of the tower: that of each body upward, that downward, and the supports
 _DOWN, _UP, _TOP, _RIM, _AXIS = 10, 20, 31, 32, 33
@@ -101,13 +102,7 @@ def _ssna102() -> tuple[fem.Function, list[int], float]:
         cx.Contact(cx.Surface(tags, slave), cx.Surface(tags, master), weight=weight)
         for slave, master in pairs
     ]
-    problem = cx.ContactProblem(
-        hertz_axisymmetric.elasticity(u, 2e5, 0.3),
-        u,
-        contacts=contacts,
-        bcs=bcs,
-        petsc_options_prefix="tower_",
-    )
+    problem = make_problem(hertz_axisymmetric.elasticity(u, 2e5, 0.3), u, contacts, bcs)
 
     def update(t: float) -> None:
         moved.g.value[...] = -2.0 * t
@@ -145,13 +140,7 @@ def moose() -> Answer:
     u = story.displacement(data.mesh)
     bcs = [story.fix(u, tags, 0, 0.0, 2, 3), story.fix(u, tags, 1, -0.002, 2)]
     contact = cx.Contact(cx.Surface(tags, 1), cx.Plane((0, 1), (0, 1)))
-    problem = cx.ContactProblem(
-        st_venant_kirchhoff(u, 1e6, 0.3),
-        u,
-        contacts=[contact],
-        bcs=bcs,
-        petsc_options_prefix="moose_",
-    )
+    problem = make_problem(st_venant_kirchhoff(u, 1e6, 0.3), u, [contact], bcs)
     iterations = solve(problem)
     x = u.function_space.tabulate_dof_coordinates()[contact.slave_nodes, 0]
     p = story.nodal_pressure(contact)

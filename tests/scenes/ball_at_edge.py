@@ -16,6 +16,7 @@ from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 
 from meshes.build import build_mesh
+from scenes.problems import make_problem
 from story import displacement, elasticity, fix
 
 # Middle of the ball, of radius 1; the plate's edge is at x = SIDE, its top at z = 0
@@ -81,10 +82,7 @@ class BallAtEdge:
         slave, master = (plate, ball) if swapped else (ball, plate)
         self._sign = 1 if swapped else -1
         self.contact = cx.Contact(slave, master, **options)
-        self.problem = cx.ContactProblem(
-            elasticity(u, 1.0, 0.3), u, contacts=[self.contact], bcs=bcs,
-            petsc_options_prefix="ball_",
-        )  # fmt: skip
+        self.problem = make_problem(elasticity(u, 1.0, 0.3), u, [self.contact], bcs)
 
     def push(self) -> int:
         """Push the ball down.

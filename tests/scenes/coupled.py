@@ -17,6 +17,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.problems import make_problem, pair_of
 
 E, NU = 1.0, 0.3
 MU, LAMBDA = E / (2 * (1 + NU)), E * NU / ((1 + NU) * (1 - 2 * NU))
@@ -69,13 +70,8 @@ class Coupled:
         ]
         self.F = F
         self.contact = self.new_contact(**options)
-        self.problem = cx.ContactProblem(
-            F,
-            self.w,
-            contacts=[self.contact],
-            bcs=self.bcs,
-            displacement=self.displacement,
-            petsc_options_prefix="coupled_",
+        self.problem = make_problem(
+            F, self.w, [self.contact], self.bcs, displacement=self.displacement
         )
 
     def new_contact(self, **options: Any) -> cx.Contact:
@@ -191,10 +187,5 @@ def thermal(friction: float = 0.2, **options: Any) -> tuple[Any, ...]:
         fix(Q, tags, 50.0, Tag.LOWER_CONTACT),
     ]
     hold = [fix(V.sub(i), tags, 0.0, Tag.LOWER_BOTTOM, Tag.UPPER_TOP) for i in range(2)]
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        friction=friction,
-        **options,
-    )
+    contact = pair_of(tags, friction=friction, **options)
     return F, u, T, heat, hold, contact

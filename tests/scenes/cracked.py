@@ -14,6 +14,7 @@ import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 ABOVE, BELOW, BOTTOM, TOP = 1, 2, 3, 4
@@ -96,10 +97,7 @@ class Cracked:
             fem.dirichletbc(value, fem.locate_dofs_topological(V, gdim - 1, self.tags.find(tag)), V)
             for tag, value in ((BOTTOM, np.zeros(gdim)), (TOP, moved))
         ]
-        return cx.ContactProblem(
-            elasticity(u, 1.0, 0.3), u, contacts=contacts, bcs=bcs,
-            petsc_options_prefix="crack_", **options,
-        )  # fmt: skip
+        return make_problem(elasticity(u, 1.0, 0.3), u, contacts, bcs, **options)
 
     def at_nodes(self) -> np.ndarray:
         """Positions and displacements of all nodes in the order of the positions."""

@@ -19,6 +19,7 @@ from meshes import Tag
 from scenes.blocks import dimension
 from scenes.coulomb import check_coulomb
 from scenes.materials import of_bodies
+from scenes.problems import make_problem
 from scenes.supports import DrivenFaces
 from story import displacement, elasticity
 
@@ -87,12 +88,11 @@ class DrivenBlock:
             friction=friction,
             sliding=sliding,
         )
-        self.problem = cx.ContactProblem(
+        self.problem = make_problem(
             self.F,
             self.u,
-            contacts=[self.contact],
-            bcs=[driven.bc for driven in (self.top, self.bottom) if driven is not None],
-            petsc_options_prefix="driven_",
+            [self.contact],
+            [driven.bc for driven in (self.top, self.bottom) if driven is not None],
         )
         self._residual = fem.form(self.F)
         self.iterations: list[int] = []

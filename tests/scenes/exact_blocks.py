@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
@@ -21,6 +20,7 @@ import meshes
 from meshes import Tag
 from scenes import exact
 from scenes.blocks import dimension
+from scenes.problems import make_problem, pair_of
 from scenes.supports import prescribe
 from story import displacement
 
@@ -84,17 +84,10 @@ class Case:
 
     def solve(self, F: ufl.Form, bc: fem.DirichletBC, offset: Any = 0.0) -> None:
         """Solve the problem of a residual without contact."""
-        self.contact = cx.Contact(
-            cx.Surface(self.tags, Tag.UPPER_CONTACT),
-            cx.Surface(self.tags, Tag.LOWER_CONTACT),
-            sliding="small",
-            method=self._method,
-            tied=self._tied,
-            offset=offset,
+        self.contact = pair_of(
+            self.tags, sliding="small", method=self._method, tied=self._tied, offset=offset
         )
-        self.problem = cx.ContactProblem(
-            F, self.u, contacts=[self.contact], bcs=[bc], petsc_options_prefix="rates_"
-        )
+        self.problem = make_problem(F, self.u, [self.contact], [bc])
         self.problem.solve()
 
     def errors(

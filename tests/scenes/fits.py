@@ -23,6 +23,7 @@ from dolfinx import fem
 from dolfinx.io.gmsh import MeshData
 
 from meshes.build import build_mesh
+from scenes.problems import make_problem
 from story import displacement, elasticity, fix
 
 type Array = npt.NDArray[np.float64]
@@ -117,9 +118,7 @@ class PinInHole:
         bcs.append(fem.dirichletbc(np.float64(0.0), heights, V.sub(1)))
         pin, hole = cx.Surface(tags, PIN_ROUND), cx.Surface(tags, HOLE)
         self.contact = cx.Contact(pin, hole, **options)
-        self.problem = cx.ContactProblem(
-            F, u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="pin_"
-        )
+        self.problem = make_problem(F, u, [self.contact], bcs)
 
     @property
     def stress(self) -> float:
@@ -223,10 +222,7 @@ class Taper:
         ]
         socket, stem = cx.Surface(tags, SOCKET_CONE), cx.Surface(tags, STEM_CONE)
         self.contact = cx.Contact(socket, stem, friction=FRICTION, **options)
-        self.problem = cx.ContactProblem(
-            elasticity(u, young, 0.3), u, contacts=[self.contact], bcs=bcs,
-            petsc_options_prefix="taper_",
-        )  # fmt: skip
+        self.problem = make_problem(elasticity(u, young, 0.3), u, [self.contact], bcs)
         self.largest = self.least = 0.0
 
     def push(self) -> dict[str, float]:

@@ -17,6 +17,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 RADII = (1.0, 1.5, 2.0)
@@ -103,9 +104,7 @@ class FreeRings:
         surfaces = [cx.Surface(tags, tag) for tag in (INNER, OUTER)]
         slave, master = surfaces[::-1] if swapped else surfaces
         self.contact = cx.Contact(slave, master, **options)
-        self.problem = cx.ContactProblem(
-            F, self.u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="rings_"
-        )
+        self.problem = make_problem(F, self.u, [self.contact], bcs)
 
     @staticmethod
     def _tags(domain: mesh.Mesh, first: int, n: int, m: int, layers: int) -> mesh.MeshTags:

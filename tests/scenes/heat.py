@@ -22,6 +22,7 @@ import meshes
 from meshes import Tag
 from scenes.blocks import dimension
 from scenes.coupled import EXPANSION, LAMBDA, MU, fix, strain
+from scenes.problems import make_problem, pair_of
 
 Array = npt.NDArray[np.float64]
 CONDUCTIVITY, HOT = 2.0, 100.0
@@ -86,25 +87,19 @@ class HeatedBlocks:
                 Tag[f"{body}_{'XY'[i]}{side}"] for body in ("UPPER", "LOWER") for side in (0, 1)
             ]
             self.hold.append(fix(V.sub(i), self.tags, 0.0, *ends, *sides))
-        self.contact = cx.Contact(
-            cx.Surface(self.tags, Tag.UPPER_CONTACT),
-            cx.Surface(self.tags, Tag.LOWER_CONTACT),
-            offset=-gap,
-            **options,
-        )
+        self.contact = pair_of(self.tags, offset=-gap, **options)
         self.conductance = cx.Conductance(self.contact, self.T, h)
         self.h = h
 
     def problem(self) -> cx.ContactProblem:
         """Both fields as one problem."""
-        return cx.ContactProblem(
+        return make_problem(
             self.F,
             [self.u, self.T],
+            [self.contact],
+            self.heat + self.hold,
             displacement=0,
-            contacts=[self.contact],
-            bcs=self.heat + self.hold,
             conductances=[self.conductance],
-            petsc_options_prefix="heated_",
         )
 
     def exact(self) -> tuple[float, float, float]:

@@ -15,6 +15,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 RADIUS = 0.3
@@ -100,14 +101,7 @@ class HeldSheet:
         self.place = fem.Constant(domain, middle)
         self.push(deep)
         self.contact = cx.Contact(cx.Surface(tags, 1), tool(self.place), **options)
-        self.problem = cx.ContactProblem(
-            material(u, 1.0, 0.3),
-            u,
-            contacts=[self.contact],
-            bcs=[bc],
-            petsc_options_prefix="sheet_",
-            audit=audit,
-        )
+        self.problem = make_problem(material(u, 1.0, 0.3), u, [self.contact], [bc], audit=audit)
 
     def push(self, deep: float) -> None:
         """Move the tool.

@@ -19,6 +19,7 @@ import reference
 from meshes import Tag
 from scenes.blocks import NU
 from scenes.materials import of_bodies
+from scenes.problems import make_problem
 from story import displacement, elasticity, fix
 
 
@@ -79,14 +80,7 @@ class HertzSphere:
             **({} if method is None else {"method": method}),
         )
         self.F = elasticity(u, E, NU)
-        self.problem = cx.ContactProblem(
-            self.F,
-            u,
-            contacts=[self.contact],
-            bcs=self.bcs,
-            petsc_options_prefix="sphere_",
-            **options,
-        )
+        self.problem = make_problem(self.F, u, [self.contact], self.bcs, **options)
 
     def update(self, t: float) -> None:
         """Move the top by a part of the displacement."""

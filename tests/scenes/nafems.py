@@ -27,6 +27,7 @@ from dolfinx.io.gmsh import MeshData
 import story
 from meshes import Tag
 from meshes.build import build_mesh
+from scenes.problems import make_problem
 
 STEEL, ALUMINIUM, NU = 210e3, 70e3, 0.3
 # Vertical displacement of the foundation at the middle of the contact, by friction
@@ -95,9 +96,7 @@ class Benchmark:
             weight=weight,
             **options,
         )
-        self.problem = cx.ContactProblem(
-            F, u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="nafems_"
-        )
+        self.problem = make_problem(F, u, [self.contact], bcs)
 
     def depth(self) -> float:
         """Vertical displacement of the foundation at the middle of the contact."""

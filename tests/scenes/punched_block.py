@@ -14,6 +14,7 @@ import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 TOP, FOOT, BOTTOM, HEAD = 1, 2, 3, 4
@@ -93,10 +94,7 @@ class PunchedBlock:
             self.centre = fem.Constant(domain, np.full(gdim, unit * x0))
             self.centre.value[-1] = unit * (ball - down)
             self.contact = cx.Contact(top, cx.Sphere(self.centre, unit * ball), **options)
-        self.problem = cx.ContactProblem(
-            elasticity(u, 1.0, 0.3), u, contacts=[self.contact], bcs=bcs,
-            petsc_options_prefix="punched_", audit=audit,
-        )  # fmt: skip
+        self.problem = make_problem(elasticity(u, 1.0, 0.3), u, [self.contact], bcs, audit=audit)
 
 
 def _grid(low: list[float], high: list[float], n: list[int]) -> tuple[np.ndarray, np.ndarray]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import contactx as cx
 
+from scenes.problems import make_problem
 from stress.grids import disc, even, grid
 from stress.parts import Parts
 
@@ -41,14 +42,7 @@ class Roller:
         slave, master = parts.surface(0, "y1"), parts.surface(1, "y0", "x0", "x1")
         self.u = parts.u
         self.contact = cx.Contact(slave, master, method=method, friction=friction)
-        self.problem = cx.ContactProblem(
-            parts.F,
-            parts.u,
-            contacts=[self.contact],
-            bcs=parts.bcs,
-            petsc_options_prefix="roller_",
-            **options,
-        )
+        self.problem = make_problem(parts.F, parts.u, [self.contact], parts.bcs, **options)
 
     def move(self, depth: float) -> None:
         """Set how deep the roller is, by its radius."""

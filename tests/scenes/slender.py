@@ -17,6 +17,7 @@ import ufl
 from dolfinx import fem, mesh
 
 from scenes.materials import st_venant_kirchhoff
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 type Material = Callable[[fem.Function, float, float], ufl.Form]
@@ -68,12 +69,11 @@ class Strip:
         self._x = V.tabulate_dof_coordinates()[:, 0]
         bcs = [fem.dirichletbc(self._given, fem.locate_dofs_geometrical(V, ends))]
         self.contact = cx.Contact(cx.Surface(tags, 1), cx.Sphere((aside, 0.0), 1.0), **options)
-        self.problem = cx.ContactProblem(
+        self.problem = make_problem(
             material(self.u, 1.0, 0.3),
             self.u,
-            contacts=[self.contact],
-            bcs=bcs,
-            petsc_options_prefix="strip_",
+            [self.contact],
+            bcs,
             petsc_options=petsc_options or {},
         )
 

@@ -18,6 +18,7 @@ from meshes import Tag
 from scenes.blocks import NU, Blocks
 from scenes.materials import neo_hookean
 from scenes.plasticity import Plastic
+from scenes.problems import make_problem
 from story import displacement, fix, traction
 
 
@@ -59,12 +60,11 @@ class Sheared:
         self.contact = cx.Contact(
             cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0.0, 0.0), self.normal)
         )
-        self.problem = cx.ContactProblem(
+        self.problem = make_problem(
             neo_hookean(u, 2.6, 0.3),
             u,
-            contacts=[self.contact],
-            bcs=self.bcs,
-            petsc_options_prefix="sheared_",
+            [self.contact],
+            self.bcs,
             petsc_options={"snes_max_it": 7, **options},
         )
         self.history = fem.Function(fem.functionspace(mesh, ("DG", 0)))
@@ -140,12 +140,11 @@ class DentedBlock:
         self.contact = cx.Contact(
             cx.Surface(tags, Tag.LOWER_CONTACT), cx.Sphere(self._centre, 1.0), **options
         )
-        self.problem = cx.ContactProblem(
+        self.problem = make_problem(
             self.material.F,
             self.u,
-            contacts=[self.contact],
-            bcs=[fix(self.u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)],
-            petsc_options_prefix="dented_",
+            [self.contact],
+            [fix(self.u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)],
             petsc_options={"snes_linesearch_type": "bt"},
         )
 

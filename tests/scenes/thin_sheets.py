@@ -15,6 +15,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 BOUNDARY = 1
@@ -82,11 +83,4 @@ class ThinSheets:
             zero = fem.Function(V.sub(component).collapse()[0])
             bcs.append(fem.dirichletbc(zero, dofs, V.sub(component)))
         self.contact = cx.Contact.all(tags, **options)
-        self.problem = cx.ContactProblem(
-            F,
-            u,
-            contacts=[self.contact],
-            bcs=bcs,
-            petsc_options_prefix="sheets_",
-            petsc_options=petsc_options,
-        )
+        self.problem = make_problem(F, u, [self.contact], bcs, petsc_options=petsc_options)

@@ -16,6 +16,7 @@ import ufl
 from dolfinx import fem, la, mesh
 
 from scenes.materials import neo_hookean
+from scenes.problems import make_problem
 from story import displacement
 
 THICKNESS, AT, SIDE = 0.1, 0.8, 0.2
@@ -83,9 +84,7 @@ class TipOnArm:
         tip, arm = cx.Surface(tags, TIP), cx.Surface(tags, ARM)
         slave, master = (arm, tip) if swapped else (tip, arm)
         self.contact = cx.Contact(slave, master, **options)
-        self.problem = cx.ContactProblem(
-            self.F, u, contacts=[self.contact], bcs=self.bcs, petsc_options_prefix="tip_"
-        )
+        self.problem = make_problem(self.F, u, [self.contact], self.bcs)
 
     def pushed(self, depth: float = 0.3, steps: int = 30) -> tuple[np.ndarray, float]:
         """Push the block down.

@@ -19,6 +19,7 @@ import meshes
 from meshes import Tag
 from scenes.blocks import dimension
 from scenes.materials import neo_hookean
+from scenes.problems import make_problem
 from scenes.supports import DrivenFaces
 from story import displacement, elasticity
 
@@ -73,12 +74,11 @@ class Tower:
         self.stress = fem.Constant(data.mesh, np.zeros((gdim, gdim)))
         if sides:
             F -= self._side_forces()
-        self.problem = cx.ContactProblem(
+        self.problem = make_problem(
             F,
             self.u,
-            contacts=[self.contact],
-            bcs=[end.bc for end in ([self.bottom] if free_top else [self.top, self.bottom])],
-            petsc_options_prefix="tower_",
+            [self.contact],
+            [end.bc for end in ([self.bottom] if free_top else [self.top, self.bottom])],
         )
 
     def _side_forces(self) -> ufl.Form:

@@ -12,11 +12,10 @@ from mpi4py import MPI
 import numpy as np
 import numpy.typing as npt
 
-import contactx as cx
 from dolfinx import fem, mesh
 
-from meshes import Tag
 from scenes.blocks import NU
+from scenes.problems import make_problem, pair_of
 from story import displacement, elasticity
 
 
@@ -203,19 +202,13 @@ def solve(
             W = V.sub(to)
             dofs = fem.locate_dofs_topological(W, tags.dim, facets)
             bcs.append(fem.dirichletbc(np.float64(length * Q[to, axis] * value), dofs, W))
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        friction=friction,
-        sliding=sliding,
-    )
-    problem = cx.ContactProblem(
+    contact = pair_of(tags, friction=friction, sliding=sliding)
+    # By a direct solver: each iterate is compared, and rough early steps depend on the numbering
+    problem = make_problem(
         elasticity(u, fem.Constant(domain, frame.modulus), NU),
         u,
-        contacts=[contact],
-        bcs=bcs,
-        petsc_options_prefix="invariance_",
-        # Each iterate is compared, and rough early steps depend on the numbering
+        [contact],
+        bcs,
         petsc_options={"pc_type": "lu"},
     )
     full = [np.copy(bc.g.value) for bc in bcs]

@@ -17,13 +17,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-import contactx as cx
 from dolfinx.io.gmsh import MeshData
 
 import meshes
 import reference
 from meshes import Tag
 from scenes.materials import of_bodies
+from scenes.problems import make_problem, pair_of
 from story import displacement, elasticity, fix
 
 Array = npt.NDArray[np.float64]
@@ -82,20 +82,8 @@ class TwoSpheres:
             fix(u, tags, 2, 0.0, Tag.LOWER_BOTTOM),
             self._top,
         ]
-        self.contact = cx.Contact(
-            cx.Surface(tags, Tag.UPPER_CONTACT),
-            cx.Surface(tags, Tag.LOWER_CONTACT),
-            sliding=sliding,
-            method=method,
-            search_distance=RADIUS / 10,
-        )
-        self.problem = cx.ContactProblem(
-            elasticity(u, E, NU),
-            u,
-            contacts=[self.contact],
-            bcs=bcs,
-            petsc_options_prefix="spheres_",
-        )
+        self.contact = pair_of(tags, sliding=sliding, method=method, search_distance=RADIUS / 10)
+        self.problem = make_problem(elasticity(u, E, NU), u, [self.contact], bcs)
         self.iterations: list[int] = []
 
     @property

@@ -14,6 +14,7 @@ import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 THICKNESS = 0.02
@@ -69,10 +70,7 @@ class TwoTips:
             )
         ]
         self.contact = cx.Contact(cx.Surface(tags, LOWER), cx.Surface(tags, UPPER), **options)
-        self.problem = cx.ContactProblem(
-            elasticity(u, 1.0, 0.3), u, contacts=[self.contact], bcs=bcs,
-            petsc_options_prefix="tips_",
-        )  # fmt: skip
+        self.problem = make_problem(elasticity(u, 1.0, 0.3), u, [self.contact], bcs)
 
     def push(self, down: float) -> None:
         """Move the upper one down by as many thicknesses."""

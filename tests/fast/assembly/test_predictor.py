@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 
-import contactx as cx
 from contactx._host.condensed import predictor
 from dolfinx import fem
 from dolfinx.mesh import CellType
@@ -14,6 +13,7 @@ import meshes
 from meshes import Tag
 from scenes import NU
 from scenes.covering import METHODS
+from scenes.problems import make_problem, pair_of
 from story import displacement, elasticity, fix, traction
 
 STEPS = 8
@@ -31,21 +31,18 @@ def pressed(method, solver, load_at):
     data = meshes.blocks(CellType.hexahedron, (4, 4, 4), (5, 5, 3), size_lower=(1.5, 1.5, 1.0))
     tags, u = data.facet_tags, displacement(data.mesh)
     load = fem.Constant(data.mesh, (0.0, 0.0, 0.0))
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), method=method
-    )
+    contact = pair_of(tags, method=method)
     bcs = [
         fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
         fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
         *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
     ]
-    problem = cx.ContactProblem(
+    problem = make_problem(
         elasticity(u, 1.0, NU) + traction(u, tags, Tag.UPPER_TOP, load),
         u,
-        contacts=[contact],
-        bcs=bcs,
+        [contact],
+        bcs,
         petsc_options={"pc_type": solver},
-        petsc_options_prefix="predictor_",
     )
     reports = []
     for k in range(STEPS):

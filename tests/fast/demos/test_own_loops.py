@@ -11,9 +11,8 @@ import own_newton
 import own_snes
 import pytest
 
-import contactx as cx
-
 from ranks import forms_on_ranks
+from scenes.problems import make_problem
 from story import METHODS
 
 
@@ -32,12 +31,11 @@ def assert_same(scene, other, tolerance=1e-10):
 def test_a_loop_that_is_written_out(condensed, tolerance):
     scene, other = own_newton.Scene(), own_newton.Scene()
     counts = own_newton.solve(scene, condensed=condensed)
-    problem = cx.ContactProblem(
+    problem = make_problem(
         other.F,
         other.u,
-        contacts=[other.contact],
-        bcs=other.bcs,
-        petsc_options_prefix="same_",
+        [other.contact],
+        other.bcs,
         petsc_options={"pc_type": "condensed"} if condensed else None,
     )
     for step, count in enumerate(counts):
@@ -50,9 +48,7 @@ def test_a_loop_that_is_written_out(condensed, tolerance):
 def test_the_snes_of_a_nonlinear_problem():
     scene, other = own_snes.Scene(), own_snes.Scene()
     report = own_snes.solve(scene)
-    problem = cx.ContactProblem(
-        other.F, other.u, contacts=[other.contact], bcs=other.bcs, petsc_options_prefix="same_"
-    )
+    problem = make_problem(other.F, other.u, [other.contact], other.bcs)
     problem.solve()
     assert report.converged
     assert report.iterations == problem.report.iterations
@@ -82,9 +78,7 @@ def test_an_arc_length_method():
     # The end of the way is a solution under the load that it was found with
     other.factor.value = arch.factor.value
     other.u.x.array[:] = 0.99 * arch.u.x.array
-    problem = cx.ContactProblem(
-        other.F, other.u, contacts=[other.contact], bcs=other.bcs, petsc_options_prefix="same_"
-    )
+    problem = make_problem(other.F, other.u, [other.contact], other.bcs)
     problem.solve()
     assert problem.report.iterations > 0
     assert_same(arch, other)

@@ -12,6 +12,7 @@ import contactx as cx
 from dolfinx import fem, mesh
 
 from inputs.rows import refused, scene, solved, table
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 # A base, of which the contact takes the top
@@ -39,9 +40,7 @@ def pressed(x, cells, kind="triangle", method="node-to-surface"):
         for value, height in (((0.0, -0.1), 1), ((0.0, 0.0), -1))
     ]
     contact = cx.Contact(cx.Surface(tags, 1), cx.Surface(tags, 2), method=method)
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=bcs, petsc_options_prefix="pressed_"
-    )
+    problem = make_problem(elasticity(u, 1.0, 0.3), u, [contact], bcs)
     problem.solve()
     return contact
 

@@ -5,11 +5,11 @@
 import numpy as np
 import pytest
 
-import contactx as cx
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
 from scenes.free_rings import FreeRings, lame_pressure
+from scenes.problems import make_problem
 
 pytestmark = pytest.mark.usefixtures("method")
 SLIDING = ["finite", "small"]
@@ -21,9 +21,7 @@ def solved(gap, *, sliding="finite", cell=CellType.quadrilateral, **options):
     """Blocks that are so far apart and move towards each other by 0.05, and their contact."""
     blocks = Blocks(cell, gap=gap)
     contact = blocks.contact(sliding, **options)
-    cx.ContactProblem(
-        blocks.F, blocks.u, contacts=[contact], bcs=blocks.bcs, petsc_options_prefix="adjust_"
-    ).solve()
+    make_problem(blocks.F, blocks.u, [contact], blocks.bcs).solve()
     return blocks, contact
 
 

@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 
-import contactx as cx
 import ufl
 from contactx._host.bulk_host import CellForces
 from dolfinx import fem
@@ -13,6 +12,7 @@ from dolfinx.mesh import CellType
 
 from meshes import Tag
 from scenes import Blocks
+from scenes.problems import make_problem
 from story import elasticity, traction
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -39,13 +39,7 @@ class Apart:
         return 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(2)
 
     def problem(self, F, bcs=()):
-        return cx.ContactProblem(
-            F,
-            self.u,
-            contacts=[self.scene.contact()],
-            bcs=list(bcs),
-            petsc_options_prefix="cancelling_",
-        )
+        return make_problem(F, self.u, [self.scene.contact()], list(bcs))
 
 
 def thermal(scene):

@@ -15,6 +15,7 @@ import meshes
 from meshes import Tag
 from scenes.coupled import fix
 from scenes.heat import CONDUCTIVITY, HOT, HeatedBlocks, coefficient
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 MORTAR, NODES = "surface-to-surface", "node-to-surface"
@@ -85,9 +86,7 @@ def test_field_by_field_comes_to_the_same(method):
     together = HeatedBlocks(method=method)
     together.problem().solve()
     scene = HeatedBlocks(method=method)
-    mechanics = cx.ContactProblem(
-        scene.F[0], scene.u, contacts=[scene.contact], bcs=scene.hold, petsc_options_prefix="cold_"
-    )
+    mechanics = make_problem(scene.F[0], scene.u, [scene.contact], scene.hold)
     Q = scene.T.function_space
     T, q = ufl.TrialFunction(Q), ufl.TestFunction(Q)
     a = fem.form(CONDUCTIVITY * ufl.inner(ufl.grad(T), ufl.grad(q)) * ufl.dx)
@@ -181,17 +180,13 @@ def test_an_obstacle_has_a_temperature(method, degree):
     cold = fem.Constant(domain, 10.0)
     conductance = cx.Conductance(contact, T, 5.0, obstacle_value=cold)
     V = u.function_space
-    problem = cx.ContactProblem(
-        [elasticity(u, 1.0, 0.3), heat], [u, T], displacement=0, contacts=[contact],
-        bcs=[
+    problem = make_problem([elasticity(u, 1.0, 0.3), heat], [u, T], [contact], [
             fix(V, tags, np.zeros(2), Tag.UPPER_TOP),
             fix(V.sub(0), tags, 0.0, Tag.LOWER_BOTTOM),
             fix(V.sub(1), tags, -0.01, Tag.LOWER_CONTACT),
             fix(T.function_space, tags, 100.0, Tag.LOWER_CONTACT),
             fix(T.function_space, tags, 0.0, Tag.UPPER_TOP),
-        ],
-        conductances=[conductance], petsc_options_prefix="plate_",
-    )  # fmt: skip
+        ], displacement=0, conductances=[conductance])  # fmt: skip
     for value in (10.0, 40.0):
         cold.value = value
         problem.solve()
@@ -279,11 +274,14 @@ class TestRefusals:
 
         def problem(conductances, **options):
             given = {"u": [scene.u, scene.T], "F": scene.F, "displacement": 0, **options}
-            return cx.ContactProblem(
-                given["F"], given["u"], displacement=given["displacement"],
-                contacts=[scene.contact], bcs=[], conductances=conductances,
-                petsc_options_prefix="refused_",
-            )  # fmt: skip
+            return make_problem(
+                given["F"],
+                given["u"],
+                [scene.contact],
+                [],
+                displacement=given["displacement"],
+                conductances=conductances,
+            )
 
         with pytest.raises(TypeError, match=r"write conductances=\["):
             problem(scene.conductance)
@@ -325,8 +323,6 @@ class TestRefusals:
             scene.contact.across(wrong)
         scene = HeatedBlocks()
         rigid = cx.Contact(scene.contact.slave, cx.Plane((0.0, 0.0), (0.0, 1.0)))
-        cx.ContactProblem(
-            scene.F[0], scene.u, contacts=[rigid], bcs=scene.hold, petsc_options_prefix="rigid_"
-        )
+        make_problem(scene.F[0], scene.u, [rigid], scene.hold)
         with pytest.raises(ValueError, match="rigid obstacle"):
             rigid.on_both(rigid.pressure)

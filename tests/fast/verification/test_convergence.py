@@ -7,12 +7,12 @@ import itertools
 import numpy as np
 import pytest
 
-import contactx as cx
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
 from scenes.materials import neo_hookean
+from scenes.problems import make_problem, pair_of
 from story import displacement, elasticity, fix
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -40,14 +40,13 @@ def test_curved_finite_sliding_converges_quadratically(cell, method):
         fix(u, tags, 0, 0.0, Tag.UPPER_TOP),
         fix(u, tags, 2, -0.02, Tag.UPPER_TOP),
     ]
-    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
-    problem = cx.ContactProblem(
+    contact = pair_of(tags)
+    # Rates are those of Newton's method, with exact steps
+    problem = make_problem(
         elasticity(u, 1.0, 0.3),
         u,
-        contacts=[contact],
-        bcs=bcs,
-        petsc_options_prefix="slide_",
-        # Rates are those of Newton's method, with exact steps
+        [contact],
+        bcs,
         petsc_options={"snes_rtol": 1e-15, "pc_type": "lu"},
     )
     problem.solve()
@@ -85,14 +84,9 @@ def test_finite_strain_block_converges_quadratically():
         fix(u, tags, 2, 0.0, Tag.LOWER_BOTTOM),
         fix(u, tags, 2, -0.1, Tag.UPPER_TOP),
     ]
-    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
-    problem = cx.ContactProblem(
-        neo_hookean(u, 2.6, 0.3),
-        u,
-        contacts=[contact],
-        bcs=bcs,
-        petsc_options_prefix="neo_",
-        petsc_options={"snes_rtol": 1e-15},
+    contact = pair_of(tags)
+    problem = make_problem(
+        neo_hookean(u, 2.6, 0.3), u, [contact], bcs, petsc_options={"snes_rtol": 1e-15}
     )
     problem.solve()
     print(problem.report.table())

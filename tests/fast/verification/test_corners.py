@@ -13,6 +13,7 @@ import meshes
 from meshes import Tag, block_tag
 from scenes import NU, Blocks
 from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.problems import make_problem
 from story import displacement, elasticity, fix, traction
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -38,9 +39,7 @@ class Corner:
         wall = cx.Contact(side, cx.Plane(left, aside), friction=friction)
         again = [cx.Contact(foot, cx.Plane(0 * up, up), friction=friction)] if twice else []
         self.contacts = [floor, wall, *again]
-        self.problem = cx.ContactProblem(
-            F, u, contacts=self.contacts, bcs=scene.bcs[:gdim], petsc_options_prefix="corner_"
-        )
+        self.problem = make_problem(F, u, self.contacts, scene.bcs[:gdim])
         self.edge = 1 if gdim == 2 else 3
 
     def total(self):
@@ -110,9 +109,7 @@ def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
         *(cx.Contact(*pair, friction=friction, sliding=sliding) for pair in pairs),
         cx.Contact(middle["x0"], far, friction=friction, sliding=sliding),
     ]
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, NU), u, contacts=contacts, bcs=bcs, petsc_options_prefix="chain_"
-    )
+    problem = make_problem(elasticity(u, 1.0, NU), u, contacts, bcs)
     problem.solve()
     below, above, aside = (contact.force for contact in contacts)
     assert not aside.any()
@@ -154,13 +151,8 @@ def test_a_node_that_is_slave_here_and_master_there_is_condensed(cell, friction,
             (side, cx.Plane(0 * axis, axis)),
         ]
         contacts = [cx.Contact(*pair, friction=friction, sliding=sliding) for pair in pairs]
-        problem = cx.ContactProblem(
-            elasticity(u, 1.0, NU),
-            u,
-            contacts=contacts,
-            bcs=bcs,
-            petsc_options={"pc_type": solver},
-            petsc_options_prefix="chain_",
+        problem = make_problem(
+            elasticity(u, 1.0, NU), u, contacts, bcs, petsc_options={"pc_type": solver}
         )
         problem.solve()
         assert contacts[2].force[0] > 1e-3
@@ -185,12 +177,8 @@ def test_a_valley_of_two_planes_however_shallow(friction, slope):
         for angle in (slope, -slope)
     ]
     down = fix(u, tags, 1, 0.0, Tag.UPPER_TOP)
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, NU),
-        u,
-        contacts=contacts,
-        bcs=[fix(u, tags, 0, 0.0, Tag.UPPER_TOP), down],
-        petsc_options_prefix="valley_",
+    problem = make_problem(
+        elasticity(u, 1.0, NU), u, contacts, [fix(u, tags, 0, 0.0, Tag.UPPER_TOP), down]
     )
     for depth in (0.03, 0.06, 0.09):
         down.g.value[...] = -depth

@@ -13,6 +13,7 @@ from dolfinx.mesh import CellType
 
 from meshes import Tag
 from scenes.coupled import Coupled, fix, thermal
+from scenes.problems import make_problem
 
 KINDS = ("mixed", "mixed, pressure first", "blocks")
 OPTIONS = {
@@ -130,10 +131,7 @@ def test_steps_are_gone_on_with_from_a_checkpoint(kind, tmp_path):
 def test_heat_presses_as_it_does_field_by_field(unit):
     F, u, T, heat, hold, contact = thermal()
     F[1] = unit * F[1]
-    problem = cx.ContactProblem(
-        F, [u, T], contacts=[contact], bcs=heat + hold, displacement=0,
-        petsc_options_prefix="thermal_",
-    )  # fmt: skip
+    problem = make_problem(F, [u, T], [contact], heat + hold, displacement=0)
     problem.solve()
     # Newton's method converges quadratically, whatever heat is measured in
     assert problem.report.iterations <= 7
@@ -141,7 +139,7 @@ def test_heat_presses_as_it_does_field_by_field(unit):
     fem.petsc.NonlinearProblem(
         G[1], S, bcs=heat, petsc_options_prefix="heat_", petsc_options={"snes_rtol": 1e-12}
     ).solve()
-    cx.ContactProblem(G[0], w, contacts=[same], bcs=hold, petsc_options_prefix="warm_").solve()
+    make_problem(G[0], w, [same], hold).solve()
     assert np.abs(T.x.array - S.x.array).max() < 1e-9
     assert np.abs(u.x.array - w.x.array).max() < 1e-12
     assert contact.force == pytest.approx(same.force, rel=1e-9)
@@ -152,9 +150,7 @@ def test_a_hand_written_loop_solves_it_too():
     F, u, T, heat, hold, contact = thermal()
     assembler = cx.ContactAssembler(F, [u, T], contacts=[contact], bcs=heat + hold, displacement=0)
     F, w, S, heat, hold, same = thermal()
-    problem = cx.ContactProblem(
-        F, [w, S], contacts=[same], bcs=heat + hold, displacement=0, petsc_options_prefix="same_"
-    )
+    problem = make_problem(F, [w, S], [same], heat + hold, displacement=0)
     problem.solve()
     b, dx = assembler.create_vector(), assembler.create_vector()
     ksp = problem.solver.getKSP()
@@ -218,9 +214,7 @@ def test_a_jacobian_may_be_given():
     contact = scene.new_contact()
     w = [fem.Function(Q), fem.Function(V)]
     F = [ufl.replace(f, dict(zip(scene.w, w, strict=True))) for f in scene.F]
-    cx.ContactProblem(
-        F, w, contacts=[contact], bcs=scene.bcs, J=J, displacement=1, petsc_options_prefix="J_"
-    ).solve()
+    make_problem(F, w, [contact], scene.bcs, J=J, displacement=1).solve()
     assert np.abs(w[1].x.array - u.x.array).max() < 1e-13
 
 
@@ -236,10 +230,9 @@ def test_a_field_that_nothing_couples_is_solved_for_as_well():
     ]
     for given in (J, None):
         u.x.array[:] = T.x.array[:] = 0
-        problem = cx.ContactProblem(
-            F, [u, T], contacts=[plain.new_contact(friction=0.3)], bcs=plain.bcs + warm, J=given,
-            displacement=0, petsc_options_prefix="apart_",
-        )  # fmt: skip
+        problem = make_problem(
+            F, [u, T], [plain.new_contact(friction=0.3)], plain.bcs + warm, J=given, displacement=0
+        )
         problem.solve()
         assert np.abs(T.x.array - 3).max() < 1e-12
         plain.problem.solve()
@@ -296,7 +289,10 @@ def test_a_mixed_space_needs_to_say_which_part():
 def test_the_condensed_solver_is_for_displacements_alone():
     scene = Coupled("mixed")
     with pytest.raises(ValueError, match="for a displacement alone"):
-        cx.ContactProblem(
-            scene.F, scene.w, contacts=[scene.new_contact()], displacement=0,
-            petsc_options_prefix="no_", petsc_options={"pc_type": "condensed"},
-        )  # fmt: skip
+        make_problem(
+            scene.F,
+            scene.w,
+            [scene.new_contact()],
+            displacement=0,
+            petsc_options={"pc_type": "condensed"},
+        )

@@ -16,6 +16,7 @@ import meshes
 from meshes import Tag
 from scenes.materials import neo_hookean
 from scenes.plasticity import Plastic
+from scenes.problems import make_problem, pair_of
 from story import displacement, fix
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -72,13 +73,8 @@ def test_plasticity_with_history_in_a_quadrature_space():
     ]
     centre = fem.Constant(mesh, np.array([0.0, 0.0, 1.0]))
     contact = cx.Contact(cx.Surface(tags, Tag.LOWER_CONTACT), cx.Sphere(centre, 1.0))
-    problem = cx.ContactProblem(
-        material.F,
-        u,
-        contacts=[contact],
-        bcs=bcs,
-        petsc_options_prefix="plastic_",
-        petsc_options={"snes_linesearch_type": "bt"},
+    problem = make_problem(
+        material.F, u, [contact], bcs, petsc_options={"snes_linesearch_type": "bt"}
     )
     # Unloading starts with the tangent of plastic flow, far too soft: damp the step
     forces, iterations = [], []
@@ -110,10 +106,8 @@ def test_two_finite_strain_bodies_of_different_cells_need_no_change():
         fix(u, tags, 0, 0.0, Tag.UPPER_TOP),
         fix(u, tags, 1, 0.0, Tag.UPPER_TOP),
     ]
-    contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT))
-    problem = cx.ContactProblem(
-        neo_hookean(u, 2.6, 0.3), u, contacts=[contact], bcs=bcs, petsc_options_prefix="flat_"
-    )
+    contact = pair_of(tags)
+    problem = make_problem(neo_hookean(u, 2.6, 0.3), u, [contact], bcs)
     for step in range(1, 7):
         bcs[-1].g.value[...] = -0.05 * step
         problem.solve()

@@ -18,6 +18,7 @@ import meshes
 from meshes import Tag
 from scenes import CELLS, Blocks, dimension
 from scenes.covering import BOTH, METHODS, SLIDINGS, covering
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -203,7 +204,7 @@ def test_friction_holds_a_block_on_a_slope(cell, n):
     contact = cx.Contact(
         cx.Surface(tags, Tag.UPPER_CONTACT), cx.Plane((0.0, 0.0), normal), friction=0.3
     )
-    problem = cx.ContactProblem(F, u, contacts=[contact], petsc_options_prefix="slope_")
+    problem = make_problem(F, u, [contact])
     problem.solve()
     # Up to 85 % of the friction
     for angle in np.linspace(0, 0.25, 6)[1:]:
@@ -254,7 +255,7 @@ def test_a_support_that_comes_later(cell):
     F = elasticity(u, 1.0, 0.3) + (k * ufl.inner(u, v) - load * v[gdim - 1]) * ufl.dx
     floor = cx.Plane(np.zeros(gdim), np.eye(gdim)[-1])
     contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), floor)
-    problem = cx.ContactProblem(F, u, contacts=[contact], petsc_options_prefix="later_")
+    problem = make_problem(F, u, [contact])
     problem.solve()
     k.value, load.value = 0.1, 0.01
     problem.solve()

@@ -13,6 +13,7 @@ from dolfinx import fem, mesh
 
 import story
 from scenes.coulomb import parts
+from scenes.problems import make_problem
 
 PRESSURE = 0.2
 
@@ -49,9 +50,7 @@ class Pushed:
             bcs.append(story.fix(u, tags, dim - 1, -PRESSURE / 10, 2))
         floor = cx.Plane(np.zeros(dim), np.eye(dim)[-1])
         self.contact = cx.Contact(cx.Surface(tags, 1), floor, friction=friction, method=method)
-        self.problem = cx.ContactProblem(
-            F, u, contacts=[self.contact], bcs=bcs, petsc_options_prefix="law_", **options
-        )
+        self.problem = make_problem(F, u, [self.contact], bcs, **options)
 
     def pushed_to(self, *places):
         """Forces of friction at displacements of the top."""

@@ -13,6 +13,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 METHODS = pytest.mark.parametrize("method", ["node-to-surface", "surface-to-surface"])
@@ -44,9 +45,7 @@ def pressed(shape, gdim, n, cells, method):
     bc = fem.dirichletbc(np.zeros(gdim), held, V)
     tool = cx.LevelSet(lambda x: shape(x) + x[gdim - 1] - 0.02)
     contact = cx.Contact(cx.Surface(tags, 1), tool, method=method)
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=[bc], petsc_options_prefix="kink_"
-    )
+    problem = make_problem(elasticity(u, 1.0, 0.3), u, [contact], [bc])
     problem.solve()
     return contact.force
 

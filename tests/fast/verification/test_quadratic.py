@@ -20,6 +20,7 @@ from meshes import Tag
 from patch_scene import Patch, Shape
 from scenes.blocks import CELLS, PLANE, Blocks
 from scenes.materials import st_venant_kirchhoff
+from scenes.problems import make_problem, pair_of
 
 METHODS = ("node-to-surface", "surface-to-surface")
 LAWS = {
@@ -87,9 +88,7 @@ def blocks(cell: CellType, **options) -> tuple[cx.ContactAssembler, cx.Contact, 
     down = [0.02] * (dim - 1) + [-0.05]
     bcs = [story.fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(dim)]
     bcs += [story.fix(u, tags, i, down[i], Tag.UPPER_TOP) for i in range(dim)]
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.LOWER_CONTACT), **options
-    )
+    contact = pair_of(tags, **options)
     F = story.elasticity(u, 1.0, 0.3)
     return cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs), contact, u
 
@@ -154,15 +153,9 @@ def press_fit(n: int, order: int, degree: int, method: str) -> float:
         story.fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
         story.fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
     ]
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        method=method,
-        sliding="small",
-        offset=press_fit_demo.INTERFERENCE,
-    )
+    contact = pair_of(tags, method=method, sliding="small", offset=press_fit_demo.INTERFERENCE)
     F = story.elasticity(u, press_fit_demo.E, press_fit_demo.NU)
-    cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="ring_").solve()
+    make_problem(F, u, [contact], bcs).solve()
     pressure = contact.pressure.x.array[contact.slave_nodes]
     return float(np.abs(pressure / press_fit_demo.lame().pressure - 1).max())
 
@@ -189,14 +182,9 @@ def test_ties_of_curved_meshes_that_do_not_match_are_free_of_stress(method):
         values.append(fem.Function(W))
         dofs = fem.locate_dofs_topological((V.sub(i), W), 1, tags.find(Tag.UPPER_TOP))
         bcs.append(fem.dirichletbc(values[i], dofs, V.sub(i)))
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        method=method,
-        tied=True,
-    )
+    contact = pair_of(tags, method=method, tied=True)
     F = st_venant_kirchhoff(u, 1.0, 0.3)
-    problem = cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="turned_")
+    problem = make_problem(F, u, [contact], bcs)
     for angle in (0.0, 0.5, 2.0):
         c, s = np.cos(angle) - 1, np.sin(angle)
         ways = (lambda x: c * x[0] - s * x[1], lambda x: s * x[0] + c * x[1])

@@ -14,6 +14,7 @@ import meshes
 import reference
 from meshes import Tag
 from scenes import Blocks, hertz_sphere
+from scenes.problems import make_problem
 from story import displacement, elasticity, fix
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -30,9 +31,7 @@ def pressed_sphere(master, sliding="finite", h=0.04):
         fix(u, tags, 2, -0.02, Tag.UPPER_TOP),
     ]
     contact = cx.Contact(cx.Surface(tags, Tag.UPPER_CONTACT), master, sliding=sliding)
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=bcs, petsc_options_prefix="rigid_"
-    )
+    problem = make_problem(elasticity(u, 1.0, 0.3), u, [contact], bcs)
     problem.solve()
     return problem, contact
 
@@ -85,13 +84,7 @@ class Indented:
         self.contact = cx.Contact(
             cx.Surface(self.tags, Tag.UPPER_CONTACT), obstacle, sliding=sliding
         )
-        self.problem = cx.ContactProblem(
-            elasticity(self.u, 1.0, 0.3),
-            self.u,
-            contacts=[self.contact],
-            bcs=bcs,
-            petsc_options_prefix="indented_",
-        )
+        self.problem = make_problem(elasticity(self.u, 1.0, 0.3), self.u, [self.contact], bcs)
 
     def solve(self):
         self.problem.solve()

@@ -11,6 +11,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.problems import make_problem
 from scenes.thin_sheets import PRESSURE, ThinSheets
 from story import displacement, elasticity, fix
 
@@ -104,9 +105,7 @@ def test_blocks_that_nobody_pairs(cell):
             contact = cx.Contact.all(tags, friction=0.3)
         bcs = [fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)]
         bcs += [fix(u, tags, i, -0.05 * (i == 2), Tag.UPPER_TOP) for i in range(3)]
-        problem = cx.ContactProblem(
-            elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=bcs, petsc_options_prefix="all_"
-        )
+        problem = make_problem(elasticity(u, 1.0, 0.3), u, [contact], bcs)
         problem.solve()
         forces.append(contact.force)
     assert forces[1] == pytest.approx(forces[0], abs=1e-9)

@@ -10,6 +10,7 @@ from dolfinx.mesh import CellType
 
 from scenes import Blocks
 from scenes.free_rings import FreeRings, lame_pressure, pulled
+from scenes.problems import make_problem
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -94,9 +95,7 @@ def test_what_it_is_not_for(options, why):
     if not options:
         contact = cx.Contact(contact.slave, cx.Plane([0, 0], [0, 1]), smooth=True)
     with pytest.raises(ValueError, match=f"smooth .*{why}"):
-        cx.ContactProblem(
-            blocks.F, blocks.u, contacts=[contact], bcs=blocks.bcs, petsc_options_prefix="s_"
-        )
+        make_problem(blocks.F, blocks.u, [contact], blocks.bcs)
 
 
 def test_it_is_a_switch():

@@ -11,6 +11,7 @@ import contactx as cx
 from dolfinx import fem, mesh
 
 import story
+from scenes.problems import make_problem
 
 RADIUS, DEEP, YOUNG = 5.0, 0.05, 10.0
 
@@ -51,12 +52,8 @@ class OnRoll:
             self.angle = fem.Constant(domain, 0.0)
             roll = cx.Cylinder((0, 0, -RADIUS), (0, 1, 0), RADIUS, angle=self.angle)
         self.contact = cx.Contact(cx.Surface(tags, 1), roll, method=method, **options)
-        self.problem = cx.ContactProblem(
-            story.elasticity(self.u, YOUNG, 0.3),
-            self.u,
-            contacts=[self.contact],
-            bcs=bcs,
-            petsc_options_prefix="roll_",
+        self.problem = make_problem(
+            story.elasticity(self.u, YOUNG, 0.3), self.u, [self.contact], bcs
         )
 
     def spin(self, angle):

@@ -21,6 +21,7 @@ import reference
 import story
 from meshes import Tag
 from scenes.blocks import CELLS, PLANE, Blocks
+from scenes.problems import make_problem
 
 METHODS = ("node-to-surface", "surface-to-surface")
 OPTIONS = {
@@ -98,7 +99,7 @@ def wedge(cell: CellType, master: cx.Plane | None = None, **options) -> cx.Conta
         weight=t,
         **options,
     )
-    cx.ContactProblem(F, u, contacts=[contact], bcs=bcs, petsc_options_prefix="w_").solve()
+    make_problem(F, u, [contact], bcs).solve()
     return contact
 
 

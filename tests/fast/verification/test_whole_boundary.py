@@ -11,6 +11,7 @@ import contactx as cx
 import ufl
 from dolfinx import default_scalar_type, fem, mesh
 
+from scenes.problems import make_problem
 from story import displacement, elasticity
 
 CELLS = [
@@ -51,9 +52,7 @@ class PressedBlock:
         slide = ufl.Identity(gdim) - ufl.outer(ufl.as_vector(self.up), ufl.as_vector(self.up))
         F += 1e-6 * ufl.inner(slide * u, v) * ufl.dx
         self.contact = cx.Contact(cx.Surface(tags, 1), obstacle(np.zeros(gdim), self.up), **options)
-        self.problem = cx.ContactProblem(
-            F, u, contacts=[self.contact], petsc_options_prefix="whole_"
-        )
+        self.problem = make_problem(F, u, [self.contact])
 
 
 @pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
@@ -121,9 +120,7 @@ def test_a_round_body_that_rolls_keeps_forces():
     turned = fem.Function(V)
     bc = fem.dirichletbc(turned, core)
     contact = cx.Contact(cx.Surface(tags, 1), cx.Plane((0, 0), (0, 1)), friction=0.3)
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, 0.3), u, contacts=[contact], bcs=[bc], petsc_options_prefix="roll_"
-    )
+    problem = make_problem(elasticity(u, 1.0, 0.3), u, [contact], [bc])
     for angle in np.linspace(0, -0.3, 4):
         c, s = np.cos(angle) - 1, np.sin(angle)
         turned.interpolate(
