@@ -9,6 +9,8 @@ import ufl
 from contactx import cpp as core
 from dolfinx import fem, mesh
 
+from scenes.problems import make_problem
+
 
 def surface(scene, height):
     """Facets of a block at a height."""
@@ -28,7 +30,7 @@ class Audited:
         master = surface(scene, 0) if obstacle is None else obstacle
         contact = cx.Contact(surface(scene, 0.1), master, **options)
         F = ufl.inner(ufl.sym(ufl.grad(self.u)), ufl.grad(v)) * ufl.dx
-        cx.ContactProblem(F, self.u, contacts=[contact], petsc_options_prefix="audited_")
+        make_problem(F, self.u, [contact])
         self.halo = contact.discrete.halo
         self.contact, self.audit = contact, core.Audit(self.halo.nodes, [contact.discrete])
 

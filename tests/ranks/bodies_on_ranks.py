@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_bodies_on_ranks.py under mpiexec: bodies, free ones, checks, audits."""
+"""Run by test_scripts.py under mpiexec: bodies, free ones, checks, audits."""
 
 from mpi4py import MPI
 

@@ -10,33 +10,10 @@ from dataclasses import dataclass
 
 import contactx as cx
 
-from ranks import (
-    partitions,
-    scenes_adjusted,
-    scenes_coupled,
-    scenes_elastic,
-    scenes_moving,
-    scenes_quadratic,
-    scenes_rigid,
-    scenes_rubbing,
-    scenes_self,
-    scenes_several,
-    scenes_soft_stiff,
-)
+from ranks import partitions, scenes_coupled, scenes_elastic, scenes_moving, scenes_several
 
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
-_MODULES = (
-    scenes_elastic,
-    scenes_rubbing,
-    scenes_rigid,
-    scenes_several,
-    scenes_coupled,
-    scenes_quadratic,
-    scenes_soft_stiff,
-    scenes_moving,
-    scenes_self,
-    scenes_adjusted,
-)
+_MODULES = (scenes_elastic, scenes_several, scenes_coupled, scenes_moving)
 
 # Functions that yield the problem after each step
 SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
@@ -46,11 +23,7 @@ SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
     if inspect.isgeneratorfunction(function) and not name.startswith("_")
 }
 # Scenes that name their method themselves: they are run by that one alone
-ONE_METHOD = {
-    name: "node"
-    for name, function in vars(scenes_self).items()
-    if inspect.isgeneratorfunction(function)
-}
+ONE_METHOD = dict.fromkeys(("clip", "sheets", "discs"), "node")
 ONE_METHOD |= {"dam_face": "surface", "dam_face_in_increments": "surface"}
 # What they are for is in that one alone, or the same in both
 ONE_METHOD |= {"tip_on_arm": "surface", "chords": "surface", "edge": "node"}

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_checkpoint_ranks.py: contact that stops on n ranks and goes on on m."""
+"""Run by test_scripts.py: contact that stops on n ranks and goes on on m."""
 
 from __future__ import annotations
 

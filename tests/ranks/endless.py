@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Tests that never end, for test_ended_runs.py to end them: ranks, and another process."""
+"""Tests that never end, for test_launch.py to end them: ranks, and another process."""
 
 import subprocess
 import sys

@@ -12,6 +12,7 @@ import contactx as cx
 from dolfinx import fem
 
 from ranks.partitions import partitioned
+from scenes.problems import make_problem
 from story import METHODS
 
 
@@ -37,9 +38,7 @@ def difference(method):
     """Largest relative difference of displacements and multipliers on any rank; collective."""
     scene, other = Scene(method), Scene(method)
     counts = own_forms.solve(scene)
-    problem = cx.ContactProblem(
-        other.F, other.u, contacts=[other.contact], bcs=other.bcs, petsc_options_prefix="same_"
-    )
+    problem = make_problem(other.F, other.u, [other.contact], other.bcs)
     for step, count in enumerate(counts):
         other.load((step + 1) / own_newton.STEPS)
         problem.solve()

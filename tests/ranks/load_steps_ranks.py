@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_load_steps_ranks.py: checkpoints on n and m ranks, and errors of single ranks."""
+"""Run by test_scripts.py: checkpoints on n and m ranks, and errors of single ranks."""
 
 from __future__ import annotations
 

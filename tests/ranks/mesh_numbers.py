@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_mesh_numbers.py: meshes on some of the ranks against the same on one."""
+"""Run by test_scripts.py: meshes on some of the ranks against the same on one."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Run by test_output_ranks.py: ParaView's files and pictures of several ranks against one."""
+"""Run by test_scripts.py: ParaView's files and pictures of several ranks against one."""
 
 from __future__ import annotations
 

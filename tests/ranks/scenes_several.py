@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Several contacts, nodes in more than one, and load steps that are cut."""
+"""Bodies on rigid obstacles, several contacts, nodes in more than one, load steps that are cut."""
 
 from __future__ import annotations
 
@@ -8,17 +8,91 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import rigid_cylinder
 import stacked_blocks
 
 import contactx as cx
+from contactx.obstacles import Obstacle
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag, block_tag
-from scenes import NU, Blocks
-from scenes.steps import Sheared
+from scenes import NU, Blocks, slender
+from scenes.driven import DrivenBlock
+from scenes.problems import make_problem
+from scenes.steps import DentedBlock, Sheared
 from story import displacement, elasticity, fix, traction
+
+
+def plane() -> Iterator[cx.ContactProblem]:
+    """With friction; the mesh is a part of another one, of which a rank may have nothing."""
+    scene = DrivenBlock(
+        CellType.tetrahedron, plane=cx.Plane((0, 0, 0), (0, 0, 1)), gap=0.01, n_upper=4
+    )
+    for place in ((0.0, 0.0, -0.05), (0.03, 0.0, -0.06), (0.2, 0.1, -0.06)):
+        scene.top.move(place)
+        scene.problem.solve()
+        yield scene.problem
+
+
+def cylinder() -> Iterator[cx.ContactProblem]:
+    problem, _ = rigid_cylinder.create(0.04, "finite")
+    problem.solve()
+    yield problem
+
+
+def beam() -> Iterator[cx.ContactProblem]:
+    """Through soft contact."""
+    yield from _beam("lu")
+
+
+def beam_condensed() -> Iterator[cx.ContactProblem]:
+    """The same, by the condensed solver."""
+    yield from _beam("condensed")
+
+
+def _beam(solver: str) -> Iterator[cx.ContactProblem]:
+    strip = slender.beam(120, "thin", petsc_options={"pc_type": solver})
+    assert slender.press(strip, "thin").soft > 0
+    yield strip.problem
+
+
+def squeezed() -> Iterator[cx.ContactProblem]:
+    """Steps are shortened so as to turn no cell inside out."""
+    scene = Sheared(far=12.0, snes_max_it=50)
+    scene.update(1.0)
+    scene.problem.solve()
+    assert scene.problem.report.limited > 0
+    yield scene.problem
+
+
+def level_set() -> Iterator[cx.ContactProblem]:
+    yield from _pressed(cx.LevelSet(lambda x: x[0] ** 2 + (x[1] - 0.4) ** 2 + (x[2] + 2) ** 2 - 4))
+
+
+def sphere() -> Iterator[cx.ContactProblem]:
+    yield from _pressed(cx.Sphere((0.7, 0.6, -2.0), 2.0), friction=0.3)
+
+
+def plastic() -> Iterator[cx.ContactProblem]:
+    """A ball leaves a dent, whose history is that of the material; load steps."""
+    scene = DentedBlock(aside=0.05)
+    for _ in cx.LoadSteps(
+        scene.problem, 3, update=scene.update, history=scene.history, progress=False
+    ):
+        scene.commit()
+        yield scene.problem
+
+
+def _pressed(obstacle: Obstacle, **options: Any) -> Iterator[cx.ContactProblem]:
+    scene = Blocks(CellType.hexahedron, n_upper=5, n_lower=1)
+    problem = scene.problem(scene.contact(master=obstacle, **options))
+    for down in (0.05, 0.1):
+        scene.bcs[-1].g.value[...] = -down
+        scene.bcs[-2].g.value[...] = 0.1 * np.sign(down - 0.06)
+        problem.solve()
+        yield problem
 
 
 def corner_2d() -> Iterator[cx.ContactProblem]:
@@ -68,14 +142,7 @@ def _chain(solver: Any) -> Iterator[cx.ContactProblem]:
         cx.Contact(surface[1][0], surface[0][1], friction=0.3),
         cx.Contact(surface[2][0], surface[1][1], tied=True),
     ]
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, NU),
-        u,
-        contacts=contacts,
-        bcs=bcs,
-        petsc_options_prefix="chain_",
-        petsc_options=solver,
-    )
+    problem = make_problem(elasticity(u, 1.0, NU), u, contacts, bcs, petsc_options=solver)
     problem.solve()
     yield problem
 
@@ -106,12 +173,8 @@ def valley() -> Iterator[cx.ContactProblem]:
     normals = [(np.sin(angle), np.cos(angle)) for angle in (0.2, -0.2)]
     contacts = [cx.Contact(foot, cx.Plane((1 / 3, 0), n), friction=0.3) for n in normals]
     down = fix(u, tags, 1, 0.0, Tag.UPPER_TOP)
-    problem = cx.ContactProblem(
-        elasticity(u, 1.0, NU),
-        u,
-        contacts=contacts,
-        bcs=[fix(u, tags, 0, 0.0, Tag.UPPER_TOP), down],
-        petsc_options_prefix="valley_",
+    problem = make_problem(
+        elasticity(u, 1.0, NU), u, contacts, [fix(u, tags, 0, 0.0, Tag.UPPER_TOP), down]
     )
     for depth in (0.03, 0.06, 0.09):
         down.g.value[...] = -depth

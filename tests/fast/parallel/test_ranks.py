@@ -5,6 +5,7 @@
 import pytest
 
 from ranks.cases import QUICK, Case
+from ranks.launch import SCRIPTS, launch
 from ranks.runs import Runs
 
 
@@ -16,3 +17,7 @@ def runs(request, tmp_path_factory):
 @pytest.mark.parametrize(("case", "ranks"), [(Case(*names), 2) for names in QUICK], ids=str)
 def test_ranks_do_not_matter(runs, case, ranks):
     runs.check(case, ranks)
+
+
+def test_a_loop_on_forms_gives_what_the_problem_gives():
+    assert float(launch(SCRIPTS / "forms_on_ranks.py", 2)) <= 1e-10

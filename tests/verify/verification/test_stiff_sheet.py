@@ -4,7 +4,6 @@
 
 import pytest
 
-import contactx as cx
 import ufl
 from contactx._host.condensed import soft_stiff
 from dolfinx import fem
@@ -12,6 +11,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
+from scenes.problems import make_problem, pair_of
 from story import displacement, elasticity, fix
 
 BY_BODIES = {"pc_type": "condensed", "condensed_pc_type": "bodies"}
@@ -38,19 +38,13 @@ def iterations(length):
     F = elasticity(u, young, 0.3) - load * ufl.TestFunction(u.function_space)[1] * ds(
         Tag.LOWER_BOTTOM
     )
-    contact = cx.Contact(
-        cx.Surface(tags, Tag.UPPER_CONTACT),
-        cx.Surface(tags, Tag.LOWER_CONTACT),
-        tied=True,
-        sliding="small",
-    )
-    problem = cx.ContactProblem(
+    contact = pair_of(tags, tied=True, sliding="small")
+    problem = make_problem(
         F,
         u,
-        contacts=[contact],
-        bcs=[fix(u, tags, axis, 0.0, Tag.UPPER_TOP) for axis in range(2)],
+        [contact],
+        [fix(u, tags, axis, 0.0, Tag.UPPER_TOP) for axis in range(2)],
         petsc_options=BY_BODIES,
-        petsc_options_prefix="sheet_",
     )
     problem.solve()
     assert not problem.report.uncondensed
