@@ -6,39 +6,30 @@ from __future__ import annotations
 
 import sys
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 import contactx as cx  # isort: skip
 
-from mpi4py import MPI
-from petsc4py import PETSc
-
 import numpy as np
 
 import ufl
-from dolfinx import fem, io
+from dolfinx import fem
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
+from shared import LU, direct, newton_step, read  # isort: skip
+
 import reference
 import story
 
-LU = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
 
-
-def read(name: str) -> Any:
+def displacement(name: str) -> Any:
     """Displacement and facet tags on a mesh file."""
-    with io.XDMFFile(MPI.COMM_SELF, f"{name}.xdmf", "r") as file:
-        mesh = file.read_mesh(name="mesh")
-        tdim = mesh.topology.dim
-        mesh.topology.create_entities(tdim - 1)
-        mesh.topology.create_connectivity(tdim - 1, tdim)
-        return story.displacement(mesh), file.read_meshtags(mesh, "facet_tags")
+    domain, tags = read(name)
+    return story.displacement(domain), tags
 
 
 def hertz() -> None:
     """An elastic sphere on an elastic block."""
-    u, tags = read("hertz")
+    u, tags = displacement("hertz")
     bcs = [
         story.fix(u, tags, 0, 0.0, 13, 23),
         story.fix(u, tags, 1, 0.0, 14, 24),
@@ -69,7 +60,7 @@ def hertz() -> None:
 
 def block_on_base() -> tuple[cx.ContactProblem, Any]:
     """A block on its base with a load, and the condition that pushes it."""
-    u, tags = read("sliding_block")
+    u, tags = displacement("sliding_block")
     load = fem.Constant(u.function_space.mesh, np.array([0, -0.01]))
     push = story.fix(u, tags, 0, 0.0, 12)
     contact = cx.Contact(
@@ -115,7 +106,7 @@ def own_forms() -> None:
 
 def pressed_block() -> None:
     """A block between a disk and its base."""
-    u, tags = read("sliding_block")
+    u, tags = displacement("sliding_block")
     v = ufl.TestFunction(u.function_space)
     G = ufl.Identity(2) + ufl.grad(u)
     log = ufl.ln(ufl.det(G))
@@ -125,10 +116,7 @@ def pressed_block() -> None:
     above = cx.Contact(cx.Surface(tags, 12), cx.Sphere(centre, 0.6), friction=0.2)
     bcs = [story.fix(u, tags, i, 0.0, 22) for i in range(2)]
     assembler = cx.ContactAssembler(F, u, contacts=[below, above], bcs=bcs)
-    ksp = PETSc.KSP().create(MPI.COMM_SELF)
-    ksp.setType("preonly")
-    ksp.getPC().setType("lu")
-    ksp.getPC().setFactorSolverType("mumps")
+    ksp = direct()
     b, dx = assembler.create_vector(), assembler.create_vector()
     t, dt = 0.0, 1.0
     while t < 1:
@@ -137,11 +125,7 @@ def pressed_block() -> None:
         it = assembler.settle()
         with suppress(cx.ConvergenceError):
             while not it.converged and it.number < 8:
-                assembler.residual(b)
-                b.scale(-1)
-                assembler.set_up(ksp)
-                ksp.solve(b, dx)
-                assembler.update(dx, assembler.limit(dx))
+                newton_step(assembler, ksp, b, dx)
                 it = assembler.settle()
         if not it.converged:
             assembler.restore()

@@ -7,8 +7,6 @@ It writes falling_block.xdmf, which dynamics.cpp reads.
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import contactx as cx  # isort: skip
@@ -18,18 +16,18 @@ from mpi4py import MPI
 import numpy as np
 
 import ufl
-from dolfinx import fem, io
+from dolfinx import fem
 from dolfinx.mesh import CellType
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
+from shared import LU, read, sentence, show, texts, write  # isort: skip
+
 import meshes
 import story
 
 GAP, DT, STEPS = 0.0135, 0.01, 20
-LU = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
 
 
-def write() -> None:
+def make() -> None:
     """Write the mesh: a block above a wider one."""
     data = meshes.blocks(
         CellType.quadrilateral,
@@ -40,22 +38,7 @@ def write() -> None:
         gap=GAP,
         comm=MPI.COMM_SELF,
     )
-    data.mesh.name, data.facet_tags.name = "mesh", "facet_tags"
-    with io.XDMFFile(MPI.COMM_SELF, "falling_block.xdmf", "w") as file:
-        file.write_mesh(data.mesh)
-        data.mesh.topology.create_connectivity(1, 2)
-        file.write_meshtags(data.facet_tags, data.mesh.geometry)
-
-
-def sentence(text: str) -> str:
-    """First sentence of a message."""
-    return text.removeprefix("contact did not converge: ").split(". ")[0].split("\n")[0]
-
-
-def show(*words: Any) -> None:
-    """Print on the first rank."""
-    if MPI.COMM_WORLD.rank == 0:
-        print(*words)
+    write("falling_block", data.mesh, data.facet_tags)
 
 
 def figures(dynamics: cx.ContactDynamics, *values: float) -> None:
@@ -72,8 +55,7 @@ def figures(dynamics: cx.ContactDynamics, *values: float) -> None:
         balance.work_of_supports,
         balance.contact_loss,
     ]
-    # Rounding has a sign
-    show(*(f"{0.0 if abs(f) < 5e-14 else f:.13f}" for f in numbers))
+    show(*texts(numbers))
 
 
 def create(domain: Any, tags: Any, master: Any, **options: Any) -> cx.ContactDynamics:
@@ -108,13 +90,9 @@ def create(domain: Any, tags: Any, master: Any, **options: Any) -> cx.ContactDyn
 def main() -> None:
     """Take the steps of all scenes."""
     if MPI.COMM_WORLD.rank == 0:
-        write()
+        make()
     MPI.COMM_WORLD.barrier()
-    with io.XDMFFile(MPI.COMM_WORLD, "falling_block.xdmf", "r") as file:
-        domain = file.read_mesh(name="mesh")
-        domain.topology.create_entities(1)
-        domain.topology.create_connectivity(1, 2)
-        tags = file.read_meshtags(domain, "facet_tags")
+    domain, tags = read("falling_block")
     plane, base = cx.Plane((0.0, 0.0), (0.0, 1.0)), cx.Surface(tags, 21)
     scenes: dict[str, Any] = {
         "plane": {"master": plane},

@@ -7,9 +7,7 @@ On the mesh of demos/cpp/sliding_block.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import contactx as cx  # isort: skip
@@ -17,16 +15,14 @@ import contactx as cx  # isort: skip
 from mpi4py import MPI
 
 import numpy as np
+import several_fields as forms
+from shared import LU, read, show, texts
 
 import ufl
 from basix.ufl import mixed_element
-from dolfinx import fem, io
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import several_fields as forms
+from dolfinx import fem
 
 WAYS = (0.0, 0.03, -0.02)
-LU = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
 
 
 def norm(f: fem.Function) -> float:
@@ -67,19 +63,12 @@ def steps(
         size = float(np.sqrt(MPI.COMM_WORLD.allreduce(float((contact.multiplier**2).sum()))))
         figures = [*contact.force, *(norm(f) for f in functions), size, norm(contact.pressure)]
         figures += [norm(contact.gap), 0.0 if conductance is None else conductance.flow]
-        if MPI.COMM_WORLD.rank == 0:
-            # Rounding has a sign
-            texts = (f"{0.0 if abs(f) < 5e-14 else f:.13f}" for f in figures)
-            print(name, problem.report.iterations, *texts)
+        show(name, problem.report.iterations, *texts(figures))
 
 
 def main() -> None:
     """Take the steps of all scenes."""
-    with io.XDMFFile(MPI.COMM_WORLD, "sliding_block.xdmf", "r") as file:
-        domain = file.read_mesh(name="mesh")
-        domain.topology.create_entities(1)
-        domain.topology.create_connectivity(1, 2)
-        tags = file.read_meshtags(domain, "facet_tags")
+    domain, tags = read("sliding_block")
     base, slave = cx.Surface(tags, 21), cx.Surface(tags, 11)
     plane = cx.Plane((0.0, 0.0), (0.0, 1.0))
     mortar = {"method": "surface-to-surface"}

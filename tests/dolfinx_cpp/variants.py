@@ -7,30 +7,27 @@ It writes curved_blocks.xdmf and solid_blocks.xdmf, which variants.cpp reads.
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import contactx as cx  # isort: skip
 
 from mpi4py import MPI
-from petsc4py import PETSc
 
 import numpy as np
 
 import basix.ufl
 import ufl
-from dolfinx import fem, io, mesh
+from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "demos"))
+from shared import LU, direct, newton_step, read, sentence, show, texts, write  # isort: skip
+
 import meshes
 import story
 
 WAYS = (0.0, 0.03, -0.02)
-LU = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
 
 
 def norm(values: Any) -> float:
@@ -85,11 +82,8 @@ def solve(
             figures.append(0.0 if f is None else norm(np.nan_to_num(f.x.array[:size])))
         totals = fields.totals()
         figures += [totals.closed, totals.area, totals.largest_pressure, totals.dissipation]
-        if MPI.COMM_WORLD.rank == 0:
-            # Rounding has a sign
-            texts = (f"{0.0 if abs(f) < 5e-14 else f:.13f}" for f in figures)
-            # Iterations go with how accurate Krylov solvers are
-            print(name, "condensed" if condensed else problem.report.iterations, *texts)
+        # Iterations go with how accurate Krylov solvers are
+        show(name, "condensed" if condensed else problem.report.iterations, *texts(figures))
 
 
 def tolerances(name: str, tags: Any, V: fem.FunctionSpace, size: float, **options: Any) -> None:
@@ -109,14 +103,8 @@ def tolerances(name: str, tags: Any, V: fem.FunctionSpace, size: float, **option
     )
     for _ in range(2):
         problem.solve()
-        if MPI.COMM_WORLD.rank == 0:
-            report = problem.report
-            print(name, report.iterations, f"{report.history[-1].tolerance:.6e}")
-
-
-def sentence(text: str) -> str:
-    """First sentence of a message."""
-    return text.removeprefix("contact did not converge: ").split(". ")[0].split("\n")[0]
+        report = problem.report
+        show(name, report.iterations, f"{report.history[-1].tolerance:.6e}")
 
 
 def said(name: str, act: Callable[[], str]) -> None:
@@ -127,8 +115,7 @@ def said(name: str, act: Callable[[], str]) -> None:
         text = sentence(error.reason)
     except (ValueError, RuntimeError) as error:
         text = sentence(str(error))
-    if MPI.COMM_WORLD.rank == 0:
-        print(f"{name}: {text}")
+    show(f"{name}: {text}")
 
 
 class Told:
@@ -157,10 +144,7 @@ class Told:
         bcs += [story.fix(u, tags, i, 0.0, face) for i, face in more]
         contact = cx.Contact(slave=cx.Surface(tags, 11), master=master, **options)
         self.assembler = cx.ContactAssembler(F, u, contacts=[contact], bcs=bcs)
-        self.ksp = PETSc.KSP().create()
-        self.ksp.setType("preonly")
-        self.ksp.getPC().setType("lu")
-        self.ksp.getPC().setFactorSolverType("mumps")
+        self.ksp = direct()
 
     def step(self, max_it: int = 50) -> str:
         """Take a step; what it is warned of."""
@@ -168,11 +152,7 @@ class Told:
         b, dx = a.create_vector(), a.create_vector()
         a.begin_step()
         while not a.settle(max_it=max_it).converged:
-            a.residual(b)
-            a.set_up(self.ksp)
-            b.scale(-1)
-            self.ksp.solve(b, dx)
-            a.update(dx, a.limit(dx))
+            newton_step(a, self.ksp, b, dx)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             a.accept()
@@ -235,16 +215,6 @@ def refusals(tags: Any, V: fem.FunctionSpace) -> None:
         said(name, lambda m=master, o=options: Told(tags, V, m, **o).step())
 
 
-def read(name: str) -> tuple[Any, Any]:
-    """Mesh and facet tags of a file."""
-    with io.XDMFFile(MPI.COMM_WORLD, name, "r") as file:
-        domain = file.read_mesh(name="mesh")
-        facets = domain.topology.dim - 1
-        domain.topology.create_entities(facets)
-        domain.topology.create_connectivity(facets, facets + 1)
-        return domain, file.read_meshtags(domain, "facet_tags")
-
-
 def write_solid() -> None:
     """Write a block on a wider one, of tetrahedra."""
     data = meshes.blocks(
@@ -256,11 +226,7 @@ def write_solid() -> None:
         shift=[0.25, 0.2],
         comm=MPI.COMM_SELF,
     )
-    data.mesh.name, data.facet_tags.name = "mesh", "facet_tags"
-    with io.XDMFFile(MPI.COMM_SELF, "solid_blocks.xdmf", "w") as file:
-        file.write_mesh(data.mesh)
-        data.mesh.topology.create_connectivity(2, 3)
-        file.write_meshtags(data.facet_tags, data.mesh.geometry)
+    write("solid_blocks", data.mesh, data.facet_tags)
 
 
 def write_curved() -> None:
@@ -283,16 +249,12 @@ def write_curved() -> None:
     facet_tags = mesh.meshtags(curved, 1, np.concatenate(found)[order], tags[order])
     points = curved.geometry.x
     points[:, 1] += 0.03 * np.sin(4 * points[:, 0])
-    curved.name, facet_tags.name = "mesh", "facet_tags"
-    with io.XDMFFile(MPI.COMM_SELF, "curved_blocks.xdmf", "w") as file:
-        file.write_mesh(curved)
-        curved.topology.create_connectivity(1, 2)
-        file.write_meshtags(facet_tags, curved.geometry)
+    write("curved_blocks", curved, facet_tags)
 
 
 def main() -> None:
     """Solve all."""
-    domain, tags = read("sliding_block.xdmf")
+    domain, tags = read("sliding_block")
     V = fem.functionspace(domain, ("Lagrange", 1, (2,)))
     base = cx.Surface(tags, 21)
     plane = cx.Plane(point=[0.0, 0.0], normal=[0.0, 1.0])
@@ -363,12 +325,12 @@ def main() -> None:
         write_curved()
         write_solid()
     MPI.COMM_WORLD.barrier()
-    domain, tags = read("curved_blocks.xdmf")
+    domain, tags = read("curved_blocks")
     W = fem.functionspace(domain, ("Lagrange", 2, (2,)))
     base, gap = cx.Surface(tags, 21), {"friction": 0.3, "offset": 0.01}
     solve("curved friction", tags, W, base, **gap)
     solve("curved mortar", tags, W, base, **mortar, **gap)
-    domain, tags = read("solid_blocks.xdmf")
+    domain, tags = read("solid_blocks")
     W = fem.functionspace(domain, ("Lagrange", 2, (3,)))
     base = cx.Surface(tags, 21)
     ball = cx.Sphere(centre=[0.75, 0.6, -4.0], radius=4.0)
