@@ -21,8 +21,8 @@ import meshes
 import story
 from meshes import Tag
 from published.drawing import deformed, surface
-from published.grids import faces
 from published.record import Answer, Case, solve, steps
+from scenes.grids import faces
 from scenes.materials import of_bodies, st_venant_kirchhoff
 from scenes.problems import make_problem, pair_of
 

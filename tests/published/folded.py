@@ -21,8 +21,8 @@ import meshes
 import story
 from meshes import Tag
 from published.drawing import deformed
-from published.grids import faces
 from published.record import Answer, Case, steps
+from scenes.grids import faces
 from scenes.materials import st_venant_kirchhoff
 from scenes.problems import make_problem
 

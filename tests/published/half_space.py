@@ -29,6 +29,7 @@ import story
 from meshes.grids import graded
 from published.drawing import curve, surface
 from published.record import Answer, Case, solve, steps
+from scenes.grids import tagged
 from scenes.problems import make_problem
 
 E, NU = 1.0, 0.3
@@ -125,7 +126,7 @@ class HalfSpace:
                 & (np.linalg.norm(x[: gdim - 1], axis=0) < part * (1 + 1e-9))
             )
         )
-        tags = mesh.meshtags(domain, gdim - 1, np.sort(top), np.ones(len(top), dtype=np.int32))
+        tags = tagged(domain, top)
         law = hertz_axisymmetric.elasticity if axisymmetric else story.elasticity
         F = law(u, E, NU)
         if axisymmetric:

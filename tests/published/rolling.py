@@ -21,8 +21,8 @@ from dolfinx import fem, mesh
 
 from meshes.grids import graded
 from published.drawing import curve
-from published.grids import faces
 from published.record import Answer, Case, steps
+from scenes.grids import faces
 from scenes.problems import make_problem
 
 E, NU, FRICTION = 1.0, 0.5, 0.5

@@ -20,9 +20,9 @@ import meshes
 import story
 from meshes import Tag
 from published.drawing import curve, deformed
-from published.grids import faces
 from published.record import Answer, Case, solve, steps
 from scenes import slender
+from scenes.grids import faces
 from scenes.problems import make_problem, pair_of
 
 

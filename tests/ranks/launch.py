@@ -9,7 +9,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -22,6 +22,8 @@ SCRIPTS = Path(__file__).parent
 LIMIT = 120.0
 # Seconds after which all is killed in any case
 LONGEST = 1800.0
+# A few that hang are skipped, more are not waited for
+_MOST = 3
 _LOCK = Path(tempfile.gettempdir()) / f"contactx-launch-{os.getuid()}.lock"
 
 
@@ -85,6 +87,38 @@ def launch(
         if process.returncode != 0:
             raise Failure(f"{script.name} on {ranks} ranks: {process.returncode}\n{printed}")
         return printed
+
+
+def launch_together(
+    script: Path, ranks: int, folder: Path, names: Sequence[str], file: Callable[[str], Path]
+) -> dict[str, str]:
+    """Run many parts in one launch, as a start costs seconds; one that hangs hides no other.
+
+    The script takes a folder and names, and writes a file for each name in turn.
+
+    Args:
+        script: The script.
+        ranks: Number of ranks.
+        folder: Where the files go.
+        names: What is to be run.
+        file: File of a name.
+
+    Returns:
+        What went wrong with those that have no file.
+    """
+    left, wrong = list(names), {}
+    for _ in range(_MOST):
+        try:
+            launch(script, ranks, str(folder), *left)
+            break
+        except (Hang, Failure) as error:
+            left = [name for name in left if not file(name).exists()]
+            if left:
+                wrong[left.pop(0)] = str(error)
+            if not left:
+                break
+    missing = [name for name in left if not file(name).exists()]
+    return wrong | dict.fromkeys(missing, "not run, or it wrote nothing")
 
 
 def _variables(ranks: int) -> dict[str, str]:

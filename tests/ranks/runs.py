@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 
 from ranks.cases import Case
-from ranks.launch import SCRIPTS
+from ranks.launch import SCRIPTS, launch_together
 from ranks.outcome import Array, differences
-from ranks.together import launch_together
 
 SCRIPT = SCRIPTS / "run_cases.py"
 TOLERANCE = 1e-9

@@ -1,11 +1,17 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What goes wrong on one rank, or on all: each function returns what the ranks made of it."""
+"""What goes wrong on one rank, or on all: each function returns what the ranks made of it.
+
+Run under mpiexec it lets things go wrong and writes down what came of it, for test_errors.py.
+"""
 
 from __future__ import annotations
 
+import json
+import sys
+import traceback
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -20,6 +26,7 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from meshes import Tag
+from ranks import watch
 from ranks.partitions import partitioned
 from scenes import NU, Blocks
 from scenes.full_steps import limit
@@ -31,6 +38,8 @@ from scenes.steps import SlidingBlocks
 from scenes.two_tips import TwoTips
 from story import elasticity, traction
 
+# Seconds for each
+LIMIT = 60
 QUADRILATERAL, HEXAHEDRON = CellType.quadrilateral, CellType.hexahedron
 
 
@@ -48,6 +57,20 @@ def _raised(comm: Any, call: Callable[[], object]) -> list[str]:
     return comm.allgather(text)
 
 
+def _blocks(kind: Callable[..., Any] = Blocks, **options: Any) -> tuple[Any, Any]:
+    """Blocks in the plane, and their communicator."""
+    scene = kind(QUADRILATERAL, **options)
+    return scene, scene.u.function_space.mesh.comm
+
+
+def _begun(scene: Blocks) -> cx.ContactAssembler:
+    """An assembler that has begun a step."""
+    contact = scene.contact()
+    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
+    assembler.begin_step()
+    return assembler
+
+
 def _last_with_slaves(contact: cx.Contact, comm: Any) -> int:
     """The highest rank that owns a slave node."""
     return max(comm.allgather(comm.rank if len(contact.slave_nodes) else -1))
@@ -61,8 +84,7 @@ def factors_fail(folder: Path) -> dict[str, Any]:
 
 def update_throws(folder: Path) -> dict[str, Any]:
     """On the last rank, once; afterwards the loop goes on."""
-    scene = SlidingBlocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks(SlidingBlocks)
     armed = [comm.rank == comm.size - 1]
 
     def update(t: float) -> None:
@@ -132,8 +154,7 @@ def friction_is_negative(folder: Path) -> dict[str, Any]:
 
 def law_of_friction_is_wrong(folder: Path) -> dict[str, Any]:
     """Its bound is negative where one rank has slave nodes."""
-    scene = Blocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks()
     signs = [0.3, 0.3]
     law = cx.FrictionLaw(lambda p, s: signs[0] * p + 1e-3 * signs[1], lambda p, s: (signs[0], 0.0))
     contact = scene.contact(friction=law)
@@ -148,11 +169,8 @@ def law_of_friction_is_wrong(folder: Path) -> dict[str, Any]:
 
 def calls_differ(folder: Path) -> dict[str, Any]:
     """One rank goes on with a loop of its own that the others have ended."""
-    scene = Blocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
-    contact = scene.contact()
-    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
-    assembler.begin_step()
+    scene, comm = _blocks()
+    assembler = _begun(scene)
     assembler.settle()
     last = comm.rank == comm.size - 1
     call = assembler.accept if comm.size == 1 or not last else assembler.settle
@@ -161,30 +179,23 @@ def calls_differ(folder: Path) -> dict[str, Any]:
 
 def arguments_differ(folder: Path) -> dict[str, Any]:
     """The last rank has another tolerance."""
-    scene = Blocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
-    contact = scene.contact()
-    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
-    assembler.begin_step()
+    scene, comm = _blocks()
+    assembler = _begun(scene)
     rtol = 1e-11 if comm.rank < comm.size - 1 else 1e-6
     return {"errors": _raised(comm, lambda: assembler.settle(rtol=rtol))}
 
 
 def argument_is_no_number(folder: Path) -> dict[str, Any]:
     """On the last rank."""
-    scene = Blocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
-    contact = scene.contact()
-    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
-    assembler.begin_step()
+    scene, comm = _blocks()
+    assembler = _begun(scene)
     max_it: Any = 50 if comm.rank < comm.size - 1 else "many"
     return {"errors": _raised(comm, lambda: assembler.settle(max_it=max_it))}
 
 
 def displacement_is_infinite(folder: Path) -> dict[str, Any]:
     """At one node of the last rank."""
-    scene = Blocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks()
     problem = scene.problem(scene.contact())
     if comm.rank == comm.size - 1:
         scene.u.x.array[0] = np.inf
@@ -212,8 +223,7 @@ def surfaces_share_nodes(folder: Path) -> dict[str, Any]:
 
 def node_is_constrained_inside(folder: Path) -> dict[str, Any]:
     """The whole block is constrained where the plane would push it."""
-    scene = Blocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks()
     foot = scene.tags.find(Tag.UPPER_CONTACT)
     dofs = fem.locate_dofs_topological(scene.u.function_space, 1, foot)
     scene.bcs.append(fem.dirichletbc(np.zeros(2), dofs, scene.u.function_space))
@@ -223,8 +233,7 @@ def node_is_constrained_inside(folder: Path) -> dict[str, Any]:
 
 def nothing_in_reach(folder: Path) -> dict[str, Any]:
     """No rank finds a pair: a warning, and the solve goes on without contact."""
-    scene = Blocks(QUADRILATERAL, gap=1.0)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks(gap=1.0)
     contact = scene.contact(search_distance=0.1)
     problem = scene.problem(contact)
     with warnings.catch_warnings(record=True) as caught:
@@ -247,8 +256,7 @@ def load_is_not_balanced(folder: Path) -> dict[str, Any]:
 
 
 def checkpoint_is_damaged(folder: Path) -> dict[str, Any]:
-    scene = SlidingBlocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks(SlidingBlocks)
     path = folder / "damaged.npz"
     if comm.rank == 0:
         path.write_bytes(b"no archive")
@@ -259,8 +267,7 @@ def checkpoint_is_damaged(folder: Path) -> dict[str, Any]:
 
 def checkpoint_cannot_be_written(folder: Path) -> dict[str, Any]:
     """Its folder is gone when it is written."""
-    scene = SlidingBlocks(QUADRILATERAL)
-    comm = scene.u.function_space.mesh.comm
+    scene, comm = _blocks(SlidingBlocks)
     path = folder / "gone" / "run.npz"
     steps = cx.LoadSteps(scene.problem, 2, update=scene.update, checkpoint=path, progress=False)
     comm.Barrier()
@@ -307,3 +314,24 @@ def cells_are_turned_inside_out(folder: Path) -> dict[str, Any]:
     # As a loop would go whose steps nothing shortens
     with mock.patch.object(core.Loop, "limit", limit):
         return {"errors": _raised(comm, block.problem.solve)}
+
+
+def main(argv: Sequence[str]) -> None:
+    """Run the functions named, and write what they return into the folder named first."""
+    comm, folder = MPI.COMM_WORLD, Path(argv[0])
+    for name in argv[1:]:
+        watch.begin(name, LIMIT)
+        found = None
+        try:
+            found = globals()[name](folder)
+        except Exception:
+            # Not where it is expected to be raised
+            traceback.print_exc()
+        comm.Barrier()
+        if comm.rank == 0 and found is not None:
+            (folder / f"{name}-{comm.size}.json").write_text(json.dumps(found))
+    watch.begin("the end", LIMIT)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -12,8 +12,6 @@ Two blocks, the upper one on the lower one:
 - ``patch``: ``WidePatch``, of a uniform pressure.
 - ``coupled``: blocks whose displacement is solved for with a pressure or a temperature; ``heat``:
   blocks in line that heat presses together, with the exact answer.
-- ``numbered_blocks``: ``TwoBlocks`` without a contact, numbered the same on any number of ranks;
-  ``free_block``: such a block that only its contact supports, without a search.
 - ``transforms``: any two bodies, solved in other units, axes and numbers.
 
 Others:
@@ -30,6 +28,7 @@ What they are made of:
 - ``materials``: neo-Hookean bodies, and values that differ between bodies; the linear material is
   that of the demos' ``story``.
 - ``plasticity``: a material with a history.
+- ``problems``: the contact of two bodies, and the problem of some contacts.
 - ``supports``: faces that are fixed or driven.
 - ``coulomb``: the check of Coulomb's law at slave nodes.
 - ``covering``: which combinations of parameters a test runs (needs pytest, as nothing else here).

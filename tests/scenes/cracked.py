@@ -6,14 +6,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from mpi4py import MPI
-
 import numpy as np
 
-import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes.grids import create, grid, middles, outside
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
@@ -38,15 +36,7 @@ class Cracked:
             crack: Whether there is a crack.
             stitch: Whether its faces share the node in the middle of them, too.
         """
-        n = N
-        axes = np.meshgrid(*[np.linspace(0, 1, n + 1)] * gdim, indexing="ij")
-        x = np.stack([axis.ravel() for axis in axes], axis=1)
-        number = np.arange(len(x)).reshape([n + 1] * gdim)
-        corners = np.stack(np.meshgrid(*[[0, 1]] * gdim, indexing="ij"), -1).reshape(-1, gdim)
-        # Numbers of the corners of a cell run along the first axis first
-        corners = corners[:, ::-1]
-        origins = np.stack([a.ravel() for a in np.meshgrid(*[range(n)] * gdim, indexing="ij")], 1)
-        cells = number[tuple((origins[:, None] + corners[None]).transpose(2, 0, 1))]
+        x, cells = grid([0.0] * gdim, [1.0] * gdim, [N] * gdim)
         if crack:
             # Nodes within the crack, without its tip, are twice there
             inner = np.abs(x[:, :-1] - 0.5).max(axis=1) < 0.25 - 1e-9
@@ -58,31 +48,23 @@ class Cracked:
             above = x[cells].mean(axis=1)[:, -1] > 0.5
             cells = np.where(above[:, None], twin[cells], cells)
             x = np.concatenate([x, x[inner]])
-        if MPI.COMM_WORLD.rank > 0:
-            cells, x = cells[:0], x[:0]
-        kind = ["", "", "quadrilateral", "hexahedron"][gdim]
-        element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
-        domain = mesh.create_mesh(MPI.COMM_WORLD, cells, element, x)
+        domain = create((x, cells))
         self.u = displacement(domain)
         self.tags = self._tagged(domain)
 
     @staticmethod
     def _tagged(domain: mesh.Mesh) -> mesh.MeshTags:
-        tdim = domain.topology.dim
-        domain.topology.create_connectivity(tdim - 1, tdim)
-        facets = mesh.exterior_facet_indices(domain.topology)
-        middles = mesh.compute_midpoints(domain, tdim - 1, facets)[:, :tdim]
-        cells = domain.topology.connectivity(tdim - 1, tdim)
-        of_facet = np.array([cells.links(f)[0] for f in facets], dtype=np.int32)
-        height = middles[:, -1]
-        above = mesh.compute_midpoints(domain, tdim, of_facet)[:, tdim - 1] > 0.5
+        facets = outside(domain)
+        at, of_cells = middles(domain, facets)
+        height = at[:, -1]
+        above = of_cells[:, -1] > 0.5
         values = np.zeros(len(facets), dtype=np.int32)
-        on_side = np.isclose(np.abs(middles[:, :-1] - 0.5).max(axis=1), 0.5)
+        on_side = np.isclose(np.abs(at[:, :-1] - 0.5).max(axis=1), 0.5)
         values[np.isclose(height, 0.5) & ~on_side] = BELOW
         values[np.isclose(height, 0.5) & ~on_side & above] = ABOVE
         values[np.isclose(height, 0)] = BOTTOM
         values[np.isclose(height, 1)] = TOP
-        return mesh.meshtags(domain, tdim - 1, facets, values)
+        return mesh.meshtags(domain, domain.topology.dim - 1, facets, values)
 
     def contact(self, **options: Any) -> cx.Contact:
         return cx.Contact(cx.Surface(self.tags, ABOVE), cx.Surface(self.tags, BELOW), **options)

@@ -7,16 +7,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from mpi4py import MPI
-
 import numpy as np
 import numpy.typing as npt
 
-import basix.ufl
 import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.grids import create, outside
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
@@ -87,12 +85,7 @@ class FreeRings:
         x, cells = _ring(a, b + larger, n, layers, height, turned)
         x[:, :2] += shift
         y, others = _ring(b, c, n_outer, layers, height)
-        kind = "quadrilateral" if gdim == 2 else "hexahedron"
-        element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
-        both = np.concatenate([cells, others + len(x)])
-        comm = MPI.COMM_WORLD
-        mine = slice(None if comm.rank == 0 else 0)
-        domain = mesh.create_mesh(comm, both[mine], element, np.concatenate([x, y])[mine])
+        domain = create((x, cells), (y, others))
         self.u = displacement(domain)
         F = material(self.u, 1.0, 0.3)
         tags = self._tags(domain, len(x), n, n_outer, layers)
@@ -109,9 +102,7 @@ class FreeRings:
     @staticmethod
     def _tags(domain: mesh.Mesh, first: int, n: int, m: int, layers: int) -> mesh.MeshTags:
         """Tag the faces by the numbers that their nodes were made with."""
-        tdim = domain.topology.dim
-        domain.topology.create_connectivity(tdim - 1, tdim)
-        facets = mesh.exterior_facet_indices(domain.topology)
+        tdim, facets = domain.topology.dim, outside(domain)
         nodes = mesh.entities_to_geometry(domain, tdim - 1, facets)
         number = domain.geometry.input_global_indices[nodes]
         of_inner = number < first

@@ -15,6 +15,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.grids import faces, outside, tagged
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
@@ -89,13 +90,7 @@ class HeldSheet:
             )
             return at
 
-        domain.topology.create_connectivity(up, gdim)
-        facets = (
-            mesh.exterior_facet_indices(domain.topology)
-            if whole
-            else mesh.locate_entities_boundary(domain, up, lambda x: np.isclose(x[up], 0))
-        )
-        tags = mesh.meshtags(domain, up, np.sort(facets), np.ones(len(facets), dtype=np.int32))
+        tags = tagged(domain, outside(domain)) if whole else faces(domain, [(up, 0.0)])
         bc = fem.dirichletbc(np.zeros(gdim), fem.locate_dofs_geometrical(V, fixed), V)
         middle = np.zeros(gdim)
         self.place = fem.Constant(domain, middle)

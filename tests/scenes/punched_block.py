@@ -10,10 +10,10 @@ from mpi4py import MPI
 
 import numpy as np
 
-import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes.grids import create, grid, middles, outside
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
@@ -62,20 +62,13 @@ class PunchedBlock:
             audit: What becomes of wrong iterates.
             options: Options of the contact.
         """
-        parts = [_grid([-1] * gdim, [1] * (gdim - 1) + [0], [n] * (gdim - 1) + [max(2, n // 2)])]
+        parts = [grid([-1] * gdim, [1] * (gdim - 1) + [0], [n] * (gdim - 1) + [max(2, n // 2)])]
         if punch:
             foot = [x0 - width / 2, 0]
-            parts.append(_grid(foot, [foot[0] + width, width], [punch, punch]))
+            parts.append(grid(foot, [foot[0] + width, width], [punch, punch]))
             x = parts[-1][0]
             x[:, 0] = x0 + (x[:, 0] - x0) * (1 + lean * x[:, 1] / width)
-        first = np.cumsum([0, *(len(x) for x, _ in parts)])
-        x = unit * np.concatenate([x for x, _ in parts])
-        cells = np.concatenate([c + first[k] for k, (_, c) in enumerate(parts)])
-        kind = ["", "", "quadrilateral", "hexahedron"][gdim]
-        element = basix.ufl.element("Lagrange", kind, 1, shape=(gdim,))
-        comm = MPI.COMM_WORLD
-        mine = slice(None if comm.rank == 0 else 0)
-        domain = mesh.create_mesh(comm, cells[mine], element, x[mine])
+        domain = create(*((unit * x, cells) for x, cells in parts))
         self.u = u = displacement(domain)
         V, tags = u.function_space, _tagged(domain, unit * width, around)
 
@@ -97,26 +90,11 @@ class PunchedBlock:
         self.problem = make_problem(elasticity(u, 1.0, 0.3), u, [self.contact], bcs, audit=audit)
 
 
-def _grid(low: list[float], high: list[float], n: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and cells of a box."""
-    gdim = len(n)
-    axes = [np.linspace(a, b, k + 1) for a, b, k in zip(low, high, n, strict=True)]
-    x = np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1)
-    number = np.arange(len(x)).reshape([k + 1 for k in n])
-    corners = np.stack(np.meshgrid(*[[0, 1]] * gdim, indexing="ij"), -1).reshape(-1, gdim)[:, ::-1]
-    origins = np.stack([a.ravel() for a in np.meshgrid(*map(range, n), indexing="ij")], 1)
-    return x, number[tuple((origins[:, None] + corners[None]).transpose(2, 0, 1))]
-
-
 def _tagged(domain: mesh.Mesh, height: float, around: bool) -> mesh.MeshTags:
     """Tags of top, foot, bottom and head, in that order; the foot's may go around its edges."""
-    tdim = domain.topology.dim
-    domain.topology.create_connectivity(tdim - 1, tdim)
-    facets = mesh.exterior_facet_indices(domain.topology)
-    at = mesh.compute_midpoints(domain, tdim - 1, facets)[:, tdim - 1]
-    cells = domain.topology.connectivity(tdim - 1, tdim)
-    of_facet = np.array([cells.links(f)[0] for f in facets], dtype=np.int32)
-    above = mesh.compute_midpoints(domain, tdim, of_facet)[:, tdim - 1] > 0
+    facets = outside(domain)
+    at, of_cells = (points[:, -1] for points in middles(domain, facets))
+    above = of_cells > 0
     size = domain.comm.allreduce(np.abs(domain.geometry.x).max(initial=0.0), MPI.MAX)
     bottom = domain.comm.allreduce(at.min(initial=np.inf), MPI.MIN)
     values = np.zeros(len(facets), dtype=np.int32)
@@ -124,4 +102,4 @@ def _tagged(domain: mesh.Mesh, height: float, around: bool) -> mesh.MeshTags:
     values[above if around else (np.abs(at) < 1e-9 * size) & above] = FOOT
     values[np.abs(at - bottom) < 1e-9 * size] = BOTTOM
     values[(np.abs(at - height) < 1e-9 * size) & above] = HEAD
-    return mesh.meshtags(domain, tdim - 1, facets, values)
+    return mesh.meshtags(domain, domain.topology.dim - 1, facets, values)

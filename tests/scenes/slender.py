@@ -16,6 +16,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
+from scenes.grids import tagged
 from scenes.materials import st_venant_kirchhoff
 from scenes.problems import make_problem
 from story import displacement, elasticity
@@ -63,8 +64,7 @@ class Strip:
         """
         self.u = displacement(domain)
         V = self.u.function_space
-        facets = mesh.locate_entities_boundary(domain, 1, bottom)
-        tags = mesh.meshtags(domain, 1, np.sort(facets), np.ones(len(facets), dtype=np.int32))
+        tags = tagged(domain, mesh.locate_entities_boundary(domain, 1, bottom))
         self._given = fem.Function(V)
         self._x = V.tabulate_dof_coordinates()[:, 0]
         bcs = [fem.dirichletbc(self._given, fem.locate_dofs_geometrical(V, ends))]

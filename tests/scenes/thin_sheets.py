@@ -6,19 +6,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from mpi4py import MPI
-
-import numpy as np
-
-import basix.ufl
 import contactx as cx
 import ufl
-from dolfinx import fem, mesh
+from dolfinx import fem
 
+from scenes.grids import create, grid, outside, tagged
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
-BOUNDARY = 1
 PRESSURE = 1e-3
 
 
@@ -47,25 +42,12 @@ class ThinSheets:
             options: Options of the contact.
         """
         gap = 0.01 * height
-        x, quadrilaterals, count = [], [], 0
+        parts = []
         for k, n in enumerate(cells):
             low = k * (height + gap)
-            along = np.linspace(0, 1, n + 1)
-            x.append(np.stack([np.tile(along, 2), np.repeat([low, low + height], n + 1)], axis=1))
-            i = count + np.arange(n)
-            quadrilaterals.append(np.stack([i, i + 1, i + n + 1, i + n + 2], axis=1))
-            count += 2 * (n + 1)
-        element = basix.ufl.element("Lagrange", "quadrilateral", 1, shape=(2,))
-        is_first = MPI.COMM_WORLD.rank == 0
-        domain = mesh.create_mesh(
-            MPI.COMM_WORLD,
-            np.concatenate(quadrilaterals) if is_first else np.zeros((0, 4), dtype=np.int64),
-            element,
-            np.concatenate(x) if is_first else np.zeros((0, 2)),
-        )
-        domain.topology.create_connectivity(1, 2)
-        facets = mesh.exterior_facet_indices(domain.topology)
-        tags = mesh.meshtags(domain, 1, facets, np.full(len(facets), BOUNDARY, dtype=np.int32))
+            parts.append(grid([0.0, low], [1.0, low + height], [n, 1]))
+        domain = create(*parts)
+        tags = tagged(domain, outside(domain))
         self.top = len(cells) * height + (len(cells) - 1) * gap
         self.u = u = displacement(domain)
         V = u.function_space

@@ -6,15 +6,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from mpi4py import MPI
-
 import numpy as np
 
-import basix.ufl
 import contactx as cx
 import ufl
 from dolfinx import fem, la, mesh
 
+from scenes.grids import create, grid, outside
 from scenes.materials import neo_hookean
 from scenes.problems import make_problem
 from story import displacement
@@ -41,27 +39,16 @@ class TipOnArm:
             swapped: Whether the arm is the slave.
             options: Options of the contact.
         """
-        x, cells = [], []
+        parts = []
         for k, (length, height) in enumerate([(1.0, THICKNESS), (SIDE, SIDE)]):
-            shape = round(n * length) + 1, round(n * height) + 1
-            axes = np.linspace(0, length, shape[0]), np.linspace(0, height, shape[1])
-            points = np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1)
+            points, cells = grid([0, 0], [length, height], [round(n * length), round(n * height)])
             if k == 1:
                 # A corner down
                 turn = np.array([[1, -1], [1, 1]]) / np.sqrt(2)
                 points = points @ turn.T + [AT, THICKNESS + 1e-4]
-            number = np.arange(len(points)).reshape(shape) + sum(len(a) for a in x)
-            corners = [number[:-1, :-1], number[1:, :-1], number[:-1, 1:], number[1:, 1:]]
-            cells.append(np.stack([c.ravel() for c in corners], axis=1))
-            x.append(points)
-        element = basix.ufl.element("Lagrange", "quadrilateral", 1, shape=(2,))
-        comm = MPI.COMM_WORLD
-        mine = slice(None if comm.rank == 0 else 0)
-        domain = mesh.create_mesh(
-            comm, np.concatenate(cells)[mine], element, np.concatenate(x)[mine]
-        )
-        domain.topology.create_connectivity(1, 2)
-        facets = mesh.exterior_facet_indices(domain.topology)
+            parts.append((points, cells))
+        domain = create(*parts)
+        facets = outside(domain)
         at = mesh.compute_midpoints(domain, 1, facets)[:, :2]
         # Along the sides of the block
         s, t = ((at - [AT, THICKNESS + 1e-4]) @ np.array([[1, -1], [1, 1]]) / np.sqrt(2)).T

@@ -6,14 +6,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from mpi4py import MPI
-
 import numpy as np
 
-import basix.ufl
 import contactx as cx
 from dolfinx import fem, mesh
 
+from scenes.grids import create, grid, outside
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
@@ -37,24 +35,15 @@ class TwoTips:
             whole: Whether the surfaces are the whole boundaries.
             options: Options of the contact.
         """
-        x, cells = [], []
+        parts = []
         for k in range(2):
             right, up = k * (1 - overlap), k * 1.5 * THICKNESS
-            axes = right + np.linspace(0, 1, n + 1), up + np.linspace(0, THICKNESS, 3)
-            x.append(np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1))
-            first = np.arange((n + 1) * 3).reshape(n + 1, 3)[:-1, :-1].ravel() + k * 3 * (n + 1)
-            cells.append(np.stack([first, first + 3, first + 1, first + 4], axis=1))
-        element = basix.ufl.element("Lagrange", "quadrilateral", 1, shape=(2,))
-        comm = MPI.COMM_WORLD
-        mine = slice(None if comm.rank == 0 else 0)
-        nodes, every = np.concatenate(x), np.concatenate(cells)
-        domain = mesh.create_mesh(comm, every[mine], element, nodes[mine])
-        domain.topology.create_connectivity(1, 2)
-        facets = mesh.exterior_facet_indices(domain.topology)
-        middles = mesh.compute_midpoints(domain, 1, facets)
+            parts.append(grid([right, up], [right + 1, up + THICKNESS], [n, 2]))
+        domain = create(*parts)
+        facets = outside(domain)
+        at = mesh.compute_midpoints(domain, 1, facets)[:, 1]
         values = np.zeros(len(facets), dtype=np.int32)
-        of_lower = middles[:, 1] < 1.25 * THICKNESS
-        at = middles[:, 1]
+        of_lower = at < 1.25 * THICKNESS
         values[of_lower & (whole | np.isclose(at, THICKNESS))] = LOWER
         values[~of_lower & (whole | np.isclose(at, 1.5 * THICKNESS))] = UPPER
         tags = mesh.meshtags(domain, 1, facets, values)

@@ -2,21 +2,16 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Tests of the pictures."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
-from typing import Any
 
 from mpi4py import MPI
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from matplotlib import image
 
 from dolfinx import fem
-from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
 
 from meshes import Tag, blocks, hertz_cap, hertz_sphere
@@ -25,7 +20,7 @@ from plot.style import COLOURS, INK
 from plot.surface import deformed_surface, mirrored, peak_body
 
 
-def pressed(data: MeshData, degree: int = 1) -> tuple[fem.Function, fem.Function]:
+def pressed(data, degree=1):
     """Invent a displacement downwards and a pressure near the origin on the upper body."""
     mesh, tags = data.mesh, data.facet_tags
     assert tags is not None
@@ -42,12 +37,12 @@ def pressed(data: MeshData, degree: int = 1) -> tuple[fem.Function, fem.Function
     return u, pressure
 
 
-def shared(tmp_path: Path, name: str) -> Path:
+def shared(tmp_path, name):
     """Agree on one file for all ranks."""
     return Path(MPI.COMM_WORLD.bcast(tmp_path, root=0)) / name
 
 
-def colours(path: Path) -> npt.NDArray[np.int64]:
+def colours(path):
     """Read the colours of an image file, one for each pixel, on all ranks."""
     MPI.COMM_WORLD.barrier()
     pixels = image.imread(path)[..., :3]
@@ -61,7 +56,7 @@ def colours(path: Path) -> npt.NDArray[np.int64]:
         (blocks, (CellType.quadrilateral, (4, 4), (3, 3)), ()),
     ],
 )
-def test_picture_of_bodies(tmp_path: Path, make: Any, arguments: Any, mirror: Any) -> None:
+def test_picture_of_bodies(tmp_path, make, arguments, mirror):
     """The file is there, is large enough, and shows white paper, bodies and pressure."""
     u, pressure = pressed(make(*arguments))
     path = shared(tmp_path, "bodies.png")
@@ -76,7 +71,7 @@ def test_picture_of_bodies(tmp_path: Path, make: Any, arguments: Any, mirror: An
     assert red.mean() > 0.002
 
 
-def test_colours_are_those_of_the_bar(tmp_path: Path) -> None:
+def test_colours_are_those_of_the_bar(tmp_path):
     """A uniform value fills the close-up with exactly one colour of the map."""
     u, pressure = pressed(blocks(CellType.triangle, (1, 1), (1, 1)))
     pressure.x.array[:] = 1.0
@@ -87,7 +82,7 @@ def test_colours_are_those_of_the_bar(tmp_path: Path) -> None:
     assert close.mean() > 0.3
 
 
-def test_picture_without_load(tmp_path: Path) -> None:
+def test_picture_without_load(tmp_path):
     """A scalar that is zero everywhere has an overview and no close-up."""
     u, pressure = pressed(hertz_cap(2))
     pressure.x.array[:] = 0
@@ -96,7 +91,7 @@ def test_picture_without_load(tmp_path: Path) -> None:
     assert len(np.unique(colours(path), axis=0)) > 50
 
 
-def test_surface_is_deformed_and_joined() -> None:
+def test_surface_is_deformed_and_joined():
     """On any number of ranks the surface is that of the bodies, and a P2 displacement fits."""
     u, pressure = pressed(blocks(CellType.hexahedron, (2, 2, 2), (3, 3, 3)), degree=2)
     surface = deformed_surface(u, pressure, 10.0)
@@ -108,7 +103,7 @@ def test_surface_is_deformed_and_joined() -> None:
     assert np.allclose(surface.points[:, 2], reference[:, 2] - 0.2 * np.cos(reference[:, 0]))
 
 
-def test_mirror_and_peak_body() -> None:
+def test_mirror_and_peak_body():
     """Mirror images double the outer faces; the peak is below the upper body."""
     u, pressure = pressed(blocks(CellType.hexahedron, (2, 2, 2), (3, 3, 3)))
     surface = deformed_surface(u, pressure, 0.0)
@@ -124,7 +119,7 @@ def test_mirror_and_peak_body() -> None:
     assert normal == pytest.approx(-1 / 3)
 
 
-def test_normal_of_a_loaded_face() -> None:
+def test_normal_of_a_loaded_face():
     """The normal points out of the loaded face and not out of its neighbours."""
     u, pressure = pressed(hertz_sphere(0.05, MPI.COMM_SELF))
     body, normal = peak_body(deformed_surface(u, pressure, 0.0))
@@ -132,7 +127,7 @@ def test_normal_of_a_loaded_face() -> None:
     assert normal[2] < -0.95
 
 
-def test_pressure_curve(tmp_path: Path) -> None:
+def test_pressure_curve(tmp_path):
     """The file shows points and a line."""
     r = np.linspace(0, 1, 20)
     path = tmp_path / "curve.png"
@@ -144,7 +139,7 @@ def test_pressure_curve(tmp_path: Path) -> None:
         assert np.all(pixels == rgb, axis=1).sum() > 50
 
 
-def test_box_and_stretch(tmp_path: Path) -> None:
+def test_box_and_stretch(tmp_path):
     """A close-up of a box is a second picture; a stretched body fills more of the first."""
     u, pressure = pressed(blocks(CellType.hexahedron, (4, 1, 4), (3, 1, 3)))
     sizes = []
@@ -163,13 +158,13 @@ def test_box_and_stretch(tmp_path: Path) -> None:
         deformed_bodies(u, pressure, tmp_path / "x.png", title="", box=box)
 
 
-def test_marks_and_close_up(tmp_path: Path) -> None:
+def test_marks_and_close_up(tmp_path):
     """A mark adds dark points, a close-up a second pair of axes."""
     x = np.linspace(-1, 1, 50)
     dark, widths = [], []
     for marks, close_up in ((None, None), ({"here": (0.5, 0.5)}, None), (None, (-0.1, 0.1))):
         path = tmp_path / "curve.png"
-        arguments: dict[str, Any] = {"marks": marks, "close_up": close_up}
+        arguments = {"marks": marks, "close_up": close_up}
         curves({"p": (x, x**2)}, {}, path, labels=("x", "y"), title="", **arguments)
         ink = [int(INK[i : i + 2], 16) for i in (1, 3, 5)]
         dark.append(int(np.all(colours(path) == ink, axis=1).sum()))
@@ -178,13 +173,13 @@ def test_marks_and_close_up(tmp_path: Path) -> None:
     assert widths[2] == 2 * widths[0]
 
 
-def test_map(tmp_path: Path) -> None:
+def test_map(tmp_path):
     """Values are interpolated between nodes; kinds have a colour and a count each."""
     places = np.stack(np.meshgrid(np.linspace(0, 4, 20), [0, 1]), axis=-1).reshape(-1, 2)
     left = np.arange(19)
     triangles = np.concatenate([[left, left + 1, left + 20], [left + 1, left + 21, left + 20]], 1).T
     labels = ("x", "y")
-    options: dict[str, Any] = {"labels": labels, "title": ""}
+    options = {"labels": labels, "title": ""}
     path = tmp_path / "values.png"
     nodal_map(places, places[:, 0], path, label="p", triangles=triangles, **options)
     assert len(np.unique(colours(path), axis=0)) > 200
@@ -203,7 +198,7 @@ def test_map(tmp_path: Path) -> None:
         nodal_map(places, status, tmp_path / "x.png", **options)
 
 
-def test_curves(tmp_path: Path) -> None:
+def test_curves(tmp_path):
     """Each curve has its colour; lines between the points add to it."""
     x = np.linspace(-1, 1, 8)
     computed = {"p": (x, 1 - x**2), "q": (x, x)}
@@ -219,7 +214,7 @@ def test_curves(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("package", ["pyvista", "matplotlib"])
-def test_missing_package(package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_package(package, tmp_path, monkeypatch):
     """The message names the package and the extra."""
     u, pressure = pressed(blocks(CellType.triangle, (1, 1), (1, 1)))
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:

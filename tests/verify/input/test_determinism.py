@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""On one rank and thread the same run has the same bits, in this process and in another one."""
+"""On one rank and thread the same run has the same bits: here, elsewhere, and restarted."""
 
 import hashlib
 import json
@@ -13,6 +13,7 @@ import pytest
 import contactx as cx
 from dolfinx.mesh import CellType
 
+from scenes import restarts
 from scenes.steps import KINDS, DentedBlock, LooseBlock, Rubbing, SlidingBlocks, state
 from tether import environment, tethered
 
@@ -71,3 +72,27 @@ def elsewhere():
 @pytest.mark.parametrize("name", SCENES)
 def test_the_same_bits(name, elsewhere):
     assert elsewhere[name] == run(name)
+
+
+@pytest.mark.parametrize("name", [name for name in restarts.SCENES if name not in restarts.QUICK])
+def test_three_steps_and_three_are_six(name, tmp_path):
+    restarts.check_restart(name, tmp_path / "run.npz")
+
+
+@pytest.mark.parametrize("name", ["hexahedra", "facets, friction"])
+def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
+    straight, _ = restarts.run(restarts.SCENES[name]())
+    restarts.run(restarts.SCENES[name](), until=4, checkpoint=tmp_path / "run.npz")
+    program = (
+        "import contactx, sys, scenes.restarts as t\n"
+        f"bits, _ = t.run(t.SCENES[{name!r}](), restart='run.npz')\n"
+        "sys.stdout.buffer.write(b''.join(bits))"
+    )
+    done = subprocess.run(
+        tethered([sys.executable, "-c", program]),
+        cwd=tmp_path,
+        env=environment(),
+        capture_output=True,
+        check=True,
+    )
+    assert done.stdout == b"".join(straight)

@@ -7,11 +7,10 @@ import json
 import numpy as np
 import pytest
 
-from ranks.launch import SCRIPTS
-from ranks.together import launch_together
+from ranks.launch import SCRIPTS, launch_together
 from scenes.refilled import LARGEST
 
-SCRIPT = SCRIPTS / "run_errors.py"
+SCRIPT = SCRIPTS / "scenes_errors.py"
 # What each function of scenes_errors.py must say
 RAISED = {
     "update_throws": "Wrong: in update",

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Scripts that compare several ranks with one: bodies, checkpoints, load steps, meshes, files."""
+"""Scripts that compare several ranks with one: checkpoints, load steps, meshes, files."""
 
 from itertools import product
 
@@ -49,9 +49,3 @@ def test_all_is_as_on_one_rank(name, tmp_path):
     if name == "load_steps_ranks":
         # The table, by one rank
         assert output.count("┏") == 1
-
-
-@pytest.mark.parametrize("ranks", [1, 2, 3, 4])
-def test_bodies(ranks):
-    """What supports them and checks of them, too."""
-    assert launch(SCRIPTS / "bodies_on_ranks.py", ranks) == "as on one rank\n"

@@ -1,6 +1,9 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Some scenes of each family of the stress map; all of them: make stress."""
+"""Some scenes of each family of the stress map, and runs of leaks.py; all of them: make stress."""
+
+import subprocess
+import sys
 
 import pytest
 from rich.console import Console
@@ -8,6 +11,7 @@ from rich.console import Console
 from stress import picture, sheet
 from stress.families import FAMILIES, again, all_scenes, cycles, peers
 from stress.outcome import Kind, Outcome, run
+from tether import environment, tethered
 
 # Tips that end behind each other, where their nodes have pairs, too; a plate that bends about a
 # corner between its nodes; a block that comes to lie on another one; a load that is taken off; a
@@ -79,3 +83,38 @@ def test_tables_and_picture(tmp_path):
     assert (other["refused"], other["WRONG"], other["most"]) == (1, 1, 0)
     picture.draw_families([first, other], tmp_path / "families.png", "a note", "a source")
     assert (tmp_path / "families.png").stat().st_size > 5000
+
+
+# Steps before the warm-up has ended, and behind it; a form that is rarely needed is compiled in it
+WARM, STEPS = 160, 260
+# Growth of memory behind it, MB, and of Python's objects a step: the row of its table
+BOUND, OBJECTS = 0.3, 1.2
+PROGRAM = """
+import contactx
+import sys
+from stress.memory import RUNS, objects, resident
+name, warm, steps = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+for step in RUNS[name](steps):
+    if step == warm:
+        first = objects(), resident()
+    last = step
+print(objects() - first[0], resident() - first[1], last)
+"""
+
+
+@pytest.mark.parametrize(
+    "name", ["node to surface", "surface to surface", "condensed", "problems made and dropped"]
+)
+def test_memory_does_not_grow(name):
+    """In a process of its own, whose memory is that of this run alone."""
+    done = subprocess.run(
+        tethered([sys.executable, "-W", "ignore", "-c", PROGRAM, name, str(WARM), str(STEPS)]),
+        env=environment(),
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    objects, grown, last = map(float, done.stdout.split())
+    assert last >= STEPS
+    assert grown <= BOUND
+    assert objects <= OBJECTS * (last - WARM) + 50

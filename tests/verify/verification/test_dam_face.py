@@ -1,18 +1,24 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The face of a dam: balance of all slabs, laws of contact, restart, the demo, the E-B model."""
+"""The face of a dam: balance, laws, restart, demo, E-B model; and a stiff sheet on soft ground."""
 
 import numpy as np
 import pytest
 from matplotlib import image
 
+import ufl
 from contactx._host.condensed import soft_stiff
+from dolfinx import fem
+from dolfinx.mesh import CellType
 
 import dam_face
+import meshes
 from dam_results import joints, laws
 from dam_scene import Dam, DamSetting, run
 from duncan_chang import ATMOSPHERE, DuncanChang
-from meshes import DamFace
+from meshes import DamFace, Tag
+from scenes.problems import make_problem, pair_of
+from story import displacement, elasticity, fix
 
 # With fewer cells, or wider ones at the joints, nodes near the plinth stick and open in turn
 MODEL = DamFace(slabs=4, height=20.0, rows=14, layers=2, rockfill_cells=4, rockfill_rows=10)
@@ -253,3 +259,51 @@ def test_a_restart_of_rock_goes_on(dam_of_rock, tmp_path):
     for one, other in pairs:
         most = np.abs(other.x.array).max()
         assert np.abs(one.x.array - other.x.array).max() <= 1e-7 * most
+
+
+SHEET_BY_BODIES = {"pc_type": "condensed", "condensed_pc_type": "bodies"}
+CELL, THICK, STIFF = 0.5, 0.5, 1e4
+
+
+def sheet_iterations(length):
+    """Krylov iterations of a solve with factors of this matrix, under a load at the end."""
+    n = round(length / CELL)
+    data = meshes.blocks(
+        CellType.quadrilateral,
+        (n, n // 2),
+        (2 * n, 2),
+        size_upper=(length, length / 2),
+        size_lower=(length, THICK),
+    )
+    tags = data.facet_tags
+    u = displacement(data.mesh, 1)
+    young = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
+    young.x.array[:] = 1.0
+    young.x.array[data.cell_tags.find(Tag.LOWER)] = STIFF
+    load = 1e-4 * ufl.exp(-(ufl.SpatialCoordinate(data.mesh)[0] ** 2))
+    ds = ufl.Measure("ds", domain=data.mesh, subdomain_data=tags)
+    F = elasticity(u, young, 0.3) - load * ufl.TestFunction(u.function_space)[1] * ds(
+        Tag.LOWER_BOTTOM
+    )
+    contact = pair_of(tags, tied=True, sliding="small")
+    problem = make_problem(
+        F,
+        u,
+        [contact],
+        [fix(u, tags, axis, 0.0, Tag.UPPER_TOP) for axis in range(2)],
+        petsc_options=SHEET_BY_BODIES,
+    )
+    problem.solve()
+    assert not problem.report.uncondensed
+    return problem.report.krylov / problem.report.iterations
+
+
+@pytest.fixture
+def coarse_model(monkeypatch):
+    """The coarse model."""
+    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
+
+
+def test_iterations_with_the_coarse_model_hardly_grow(coarse_model):
+    """Over eight times the length, as from 5 to 40 slabs of a dam."""
+    assert sheet_iterations(64) <= 1.5 * sheet_iterations(8)

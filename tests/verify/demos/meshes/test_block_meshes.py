@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Meshes of boxes, stacks and face slabs; what they refuse: tests/fast/input/test_meshes.py."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import product
 

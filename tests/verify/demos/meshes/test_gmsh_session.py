@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Gmsh is left as it was found, and its errors reach every rank."""
 
-from __future__ import annotations
-
 import sys
 
 from mpi4py import MPI
