@@ -1,3 +1,3 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What tests draw from: ``rows`` of bad input to the package, random input to the ``core``."""
+"""Rows of bad input to the package, which tests draw from."""

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The condensed solver against a dense solution of the whole Jacobian."""
+"""The condensed solver against a dense solution of the whole Jacobian, and however rough it is."""
 
 from types import SimpleNamespace
 
@@ -14,6 +14,7 @@ import stacked_blocks
 import contactx as cx
 import ufl
 from contactx import cpp as core
+from contactx._host import linear
 from contactx._host.condensed.chains import Chains
 from contactx._host.condensed.galerkin import Galerkin
 from contactx._host.condensed.multigrid import near_null_space
@@ -21,9 +22,11 @@ from contactx._host.condensed.solver import CondensedSolver
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+import meshes
+import scenes
 from meshes import Tag
 from scenes import CELLS, Blocks, hertz_sphere
-from scenes.covering import SLIDINGS, covering
+from scenes.covering import METHODS, SLIDINGS, covering
 from story import traction
 
 MORTAR = {"method": "surface-to-surface"}
@@ -372,3 +375,31 @@ def test_chains_whose_pattern_is_not_that_of_a_diagonal():
         x = b.copy()
         chains.solve_at(x, np.arange(9))
         np.testing.assert_allclose(dense @ x, b, atol=1e-12)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_hertz_with_friction(method, monkeypatch):
+    """Exact solves, solves that are as rough as the loop asks for, and far more accurate ones."""
+    follow = linear.Condensed.follow
+    part = 1.0
+
+    def scaled(self, loop):
+        follow(self, loop)
+        if not self._solver.is_last:
+            self._solver.target *= part
+
+    monkeypatch.setattr(linear.Condensed, "follow", scaled)
+    data = meshes.hertz_sphere(0.05)
+    answers, krylov = [], []
+    for solver, part in (("lu", 1.0), ("condensed", 1.0), ("condensed", 1e-3)):
+        scene = scenes.HertzSphere(
+            data, "finite", method=method, friction=0.3,
+            petsc_options={"pc_type": solver},
+        )  # fmt: skip
+        scene.problem.solve()
+        answers.append((scene.problem.u.x.array, scene.contact.multiplier))
+        krylov.append(scene.problem.report.krylov)
+    assert krylov[1] < 0.9 * krylov[2]
+    for other in answers[1:]:
+        for found, exact in zip(other, answers[0], strict=True):
+            assert np.abs(found - exact).max() < 1e-8 * np.abs(exact).max()

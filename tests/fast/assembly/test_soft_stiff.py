@@ -1,18 +1,25 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The block preconditioner of bodies: factors of soft bodies and of stiff ones."""
+"""The block preconditioner of bodies, extrapolation of a first solution, and direct solvers."""
+
+from petsc4py import PETSc
 
 import numpy as np
 import pytest
 
 from contactx._host import compat
-from contactx._host.condensed import soft_stiff, solver
+from contactx._host.condensed import predictor, soft_stiff, solver
+from dolfinx import fem
 from dolfinx.mesh import CellType
 
+import meshes
 from meshes import Tag
-from scenes import CELLS, Blocks, blocks
-from scenes.covering import covering
-from story import fix
+from scenes import CELLS, NU, Blocks, blocks
+from scenes.covering import METHODS, covering
+from scenes.driven import DrivenBlock
+from scenes.problems import make_problem, pair_of
+from scenes.refilled import LARGEST, sizes
+from story import displacement, elasticity, fix, traction
 
 MORTAR = {"method": "surface-to-surface"}
 LAWS = [{}, {"friction": 0.3}, {"tied": True}]
@@ -185,3 +192,84 @@ def test_units_do_not_matter(stiffness, monkeypatch):
         _, found = both(dragged(CellType.tetrahedron, stiffness, friction=0.3))
         counts.append([(r.iterations, r.krylov, r.factorisations) for r in found[2]])
     assert counts[0] == counts[1]
+
+
+STEPS = 8
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_values_of_a_polynomial_go_on(order):
+    coefficients = np.arange(1.0, order + 1)[:, None] * [[1.0, -2.0]]
+    values = [sum(c * k**i for i, c in enumerate(coefficients)) for k in range(order + 1)]
+    np.testing.assert_allclose(predictor._next(values[-2::-1]), values[-1], rtol=1e-13)
+
+
+def pressed(method, solver, load_at):
+    """Displacement and reports of a block that is pressed on a wider one in steps."""
+    data = meshes.blocks(CellType.hexahedron, (4, 4, 4), (5, 5, 3), size_lower=(1.5, 1.5, 1.0))
+    tags, u = data.facet_tags, displacement(data.mesh)
+    load = fem.Constant(data.mesh, (0.0, 0.0, 0.0))
+    contact = pair_of(tags, method=method)
+    bcs = [
+        fix(u, tags, 0, 0.0, Tag.UPPER_X0, Tag.LOWER_X0),
+        fix(u, tags, 1, 0.0, Tag.UPPER_Y0, Tag.LOWER_Y0),
+        *(fix(u, tags, i, 0.0, Tag.LOWER_BOTTOM) for i in range(3)),
+    ]
+    problem = make_problem(
+        elasticity(u, 1.0, NU) + traction(u, tags, Tag.UPPER_TOP, load),
+        u,
+        [contact],
+        bcs,
+        petsc_options={"pc_type": solver},
+    )
+    reports = []
+    for k in range(STEPS):
+        load.value[...] = load_at(k + 1)
+        problem.solve()
+        reports.append(problem.report)
+    return u.x.array, contact.multiplier, reports
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_even_loads(method):
+    """Steps take less and less, and come to the same."""
+    answers = [pressed(method, pc, lambda k: (0.0, 0.0, -2e-3 * k)) for pc in ("lu", "condensed")]
+    for found, exact in zip(answers[1][:2], answers[0][:2], strict=True):
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-9 * np.abs(exact).max())
+    reports = answers[1][2]
+    assert sum(r.uncondensed != [] for r in reports) == 0
+    assert reports[-1].krylov <= 0.7 * reports[1].krylov
+    assert reports[-1].iterations < reports[1].iterations
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_loads_that_turn(method):
+    """What was is no guide then, and does no harm."""
+
+    def turning(k):
+        return (1e-4 * (-1) ** k, 3e-4 * (k % 3), -2e-3 - 1e-3 * (k % 2))
+
+    answers = [pressed(method, pc, turning) for pc in ("lu", "condensed")]
+    for found, exact in zip(answers[1][:2], answers[0][:2], strict=True):
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-9 * np.abs(exact).max())
+    direct, condensed = (sum(r.iterations for r in answer[2]) for answer in answers)
+    assert condensed <= direct + STEPS
+
+
+@pytest.mark.skipif(not PETSc.Sys.hasExternalPackage("superlu_dist"), reason="not in this PETSc")
+@pytest.mark.parametrize("method", ["node-to-surface"], indirect=True)
+def test_superlu_dist_goes_on_at_a_zero_pivot(monkeypatch, method):
+    """It has no other rows to pivot with, and once said that the linear solver failed."""
+    monkeypatch.setattr(compat, "direct_solver", lambda: "superlu_dist")
+    scene = DrivenBlock(CellType.hexahedron, sliding="small", friction=0.3, n_upper=2, n_lower=3)
+    scene.step(0, 0, -0.02)
+    for k in range(1, 13):
+        angle = np.pi / 6 * k
+        scene.step(0.3 * (np.cos(angle) - 1), 0.3 * np.sin(angle), -0.02)
+    assert scene.normal > 0
+
+
+def test_a_matrix_without_factors_leaves_nothing_behind():
+    """PETSc once raised that MUMPS was asked to solve without them, or had none ever after."""
+    assert sizes([False, True, True, False]) == pytest.approx([LARGEST, np.inf, np.inf, LARGEST])
+    assert sizes([True, True, False]) == pytest.approx([np.inf, np.inf, LARGEST])

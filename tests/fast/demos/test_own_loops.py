@@ -1,19 +1,28 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Newton loops of one's own around a ContactAssembler give what ContactProblem gives."""
+"""Newton loops of one's own give what ContactProblem gives; one demo runs as a user would run it.
+
+All of the demos: tests/verify.
+"""
 
 import inspect
+import subprocess
+import sys
 
 import arc_length
+import hertz_cylinder
 import numpy as np
 import own_forms
 import own_newton
 import own_snes
+import patch_test
 import pytest
 
+import story
 from ranks import forms_on_ranks
 from scenes.problems import make_problem
 from story import METHODS
+from tether import environment, tethered
 
 
 def assert_same(scene, other, tolerance=1e-10):
@@ -82,3 +91,42 @@ def test_an_arc_length_method():
     problem.solve()
     assert problem.report.iterations > 0
     assert_same(arch, other)
+
+
+def test_patch_test(tmp_path):
+    command = [sys.executable, patch_test.__file__, "--dim", "2", "--output", str(tmp_path)]
+    done = subprocess.run(
+        tethered(command), env=environment(), capture_output=True, text=True, check=True
+    )
+    for text in ("expected", "computed", "converged after", "surface-to-surface"):
+        assert text in done.stdout
+    assert (tmp_path / "patch_test_pressure.png").stat().st_size > 5000
+
+
+def test_an_argument_that_is_not_there():
+    with pytest.raises(SystemExit):
+        patch_test.main(["--no-such-argument"])
+
+
+def test_results_come_before_pictures(tmp_path, monkeypatch, capsys):
+    """Without the package that draws them they are not lost."""
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    with pytest.raises(ImportError, match="pyvista"):
+        hertz_cylinder.main(["--h", "0.1", "--output", str(tmp_path)])
+    assert "peak pressure" in capsys.readouterr().out
+
+
+def test_error_is_relative_to_what_is_expected():
+    assert story.Result("force", -2.0, -2.1).error == pytest.approx(0.05)
+
+
+def test_where_nothing_is_expected_the_error_is_what_is_computed():
+    assert story.Result("swing / force", 0.0, 0.03).error == 0.03
+
+
+def test_curves_are_compared_relative_to_the_exact_one():
+    weights, exact = np.array([1.0, 2.0, 1.0]), np.array([3.0, 0.0, 4.0])
+    computed = np.array([3.0, 1.0, 4.0])
+    result = story.Result.of_curves("difference / exact", weights, computed, exact)
+    assert (result.expected, result.name) == (0.0, "difference / exact")
+    assert result.computed == result.error == pytest.approx(np.sqrt(2) / 5)

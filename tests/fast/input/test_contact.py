@@ -1,13 +1,18 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Options of a contact."""
+"""Options of a contact, and the coefficient of friction from step to step."""
 
 import numpy as np
+import pytest
 
 import contactx as cx
 from dolfinx import fem
+from dolfinx.mesh import CellType
 
 from inputs.rows import constant, refused, scene, solved, table
+from meshes import Tag
+from scenes import Blocks
+from story import fix
 
 NOT_A_NUMBER = "{} must be a number, a fem.Constant or a fem.Function, not {}"
 
@@ -134,3 +139,123 @@ def test_what_looks_odd_but_is_meant():
         solved(blocks, contact)
         assert isinstance(contact, cx.Contact)
         assert contact.force[1] > 0
+
+
+@pytest.fixture
+def blocks():
+    return Blocks(CellType.quadrilateral)
+
+
+def spaces(domain):
+    return [
+        fem.functionspace(domain, ("Lagrange", 2)),
+        fem.functionspace(domain, ("Lagrange", 1, (2,))),
+        fem.functionspace(domain, ("DG", 0)),
+        fem.functionspace(domain, ("DG", 1)),
+        fem.functionspace(Blocks(CellType.quadrilateral).u.function_space.mesh, ("Lagrange", 1)),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("which", "name"),
+    [*zip(range(5), ["friction", "offset", "friction", "offset", "friction"], strict=True)],
+)
+def test_function_of_another_space(blocks, which, name):
+    function = fem.Function(spaces(blocks.u.function_space.mesh)[which])
+    contact = blocks.contact(**{name: function})
+    with pytest.raises(ValueError, match=rf"{name} is a function of .*: interpolate it into"):
+        blocks.problem(contact)
+
+
+@pytest.mark.parametrize(
+    ("bad", "message"),
+    [(-0.5, "friction is -0.5: give numbers of at least 0"), (np.nan, "friction is not finite")],
+)
+@pytest.mark.parametrize("constant", [True, False])
+def test_value_that_goes_bad_between_steps(blocks, bad, message, constant):
+    """The step fails and leaves everything as it was; then the next one is good."""
+    domain = blocks.u.function_space.mesh
+    if constant:
+        friction = fem.Constant(domain, 0.3)
+        values = friction.value
+    else:
+        friction = fem.Function(fem.functionspace(domain, ("Lagrange", 1)))
+        values = friction.x.array
+
+    def give(value):
+        values[...] = value
+
+    give(0.3)
+    contact = blocks.contact(friction=friction)
+    problem = blocks.problem(contact)
+    problem.solve()
+    u, multiplier = blocks.u.x.array.copy(), contact.multiplier.copy()
+    total = contact.slip_total.x.array.copy()
+    give(bad)
+    with pytest.raises(ValueError, match=message):
+        problem.solve()
+    assert np.array_equal(blocks.u.x.array, u)
+    assert np.array_equal(contact.multiplier, multiplier)
+    give(0.3)
+    problem.solve()
+    assert np.abs(blocks.u.x.array - u).max() <= 1e-12
+    assert np.abs(contact.slip_total.x.array - total).max() <= 1e-12
+
+
+class Pulled(Blocks):
+    """Pressed on the lower block, and pulled aside as far as one likes."""
+
+    def __init__(self, cell, aside):
+        super().__init__(cell)
+        # The plane's x: replaces the first support of the top
+        gdim = self.u.function_space.mesh.geometry.dim
+        self.bcs[gdim] = fix(self.u, self.tags, 0, aside, Tag.UPPER_TOP)
+
+
+@pytest.mark.parametrize(
+    "cell", [CellType.quadrilateral, CellType.hexahedron], ids=lambda c: c.name
+)
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_function_that_changes_between_steps_is_used(cell, sliding):
+    blocks = Pulled(cell, 0.1)
+    mu = fem.Function(fem.functionspace(blocks.u.function_space.mesh, ("Lagrange", 1)))
+    mu.x.array[:] = 0.1
+    contact = blocks.contact(sliding, friction=mu)
+    problem = blocks.problem(contact)
+    for value in (0.1, 0.05, 0.02):
+        mu.x.array[:] = value
+        problem.solve()
+        nodes = contact.discrete.nodes
+        slipping = nodes.status == 2
+        tangential = contact.multiplier - nodes.pressure[:, None] * nodes.normal
+        size = np.linalg.norm(tangential, axis=1)
+        assert slipping.any()
+        assert size[slipping] == pytest.approx(value * nodes.pressure[slipping], abs=1e-12)
+        assert np.all(size <= value * nodes.pressure + 1e-12)
+
+
+def test_function_that_varies_over_the_surface_is_used_node_by_node():
+    blocks = Pulled(CellType.hexahedron, 0.2)
+    mu = fem.Function(fem.functionspace(blocks.u.function_space.mesh, ("Lagrange", 1)))
+    mu.interpolate(lambda x: 0.02 + 0.05 * x[0] + 0.03 * x[1] ** 2)
+    contact = blocks.contact(friction=mu)
+    blocks.problem(contact).solve()
+    nodes = contact.discrete.nodes
+    x = blocks.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes]
+    expected = 0.02 + 0.05 * x[:, 0] + 0.03 * x[:, 1] ** 2
+    slipping = nodes.status == 2
+    tangential = contact.multiplier - nodes.pressure[:, None] * nodes.normal
+    size = np.linalg.norm(tangential, axis=1)
+    assert slipping.sum() >= 3
+    assert (size / nodes.pressure)[slipping] == pytest.approx(expected[slipping], rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["offset", "sliding", "tied", "master"])
+def test_an_option_cannot_be_replaced_where_it_would_have_no_effect(blocks, name):
+    contact = blocks.contact(friction=0.1)
+    setattr(contact, name, getattr(contact, name))
+    problem = blocks.problem(contact)
+    with pytest.raises(AttributeError, match=f"{name} cannot be replaced"):
+        setattr(contact, name, 0.2)
+    assert contact.friction == 0.1
+    problem.solve()

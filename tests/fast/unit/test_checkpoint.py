@@ -144,14 +144,6 @@ def refused(file, message, scene=None, **options):
     assert scene.calls == []
 
 
-def test_files_that_are_damaged(file, tmp_path):
-    data, part = file.read_bytes(), tmp_path / "part.npz"
-    with np.load(file) as arrays:
-        at = data.index(arrays["u"].tobytes())
-    part.write_bytes(data[:at] + b"x" + data[at + 1 :])
-    refused(part, "is damaged, or no checkpoint at all: Bad CRC-32")
-
-
 def test_files_of_other_kinds(file, tmp_path):
     other = tmp_path / "other.npz"
     np.savez(other, u=np.zeros(3))

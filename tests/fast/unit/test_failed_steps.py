@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Failed and interrupted steps, and the life of a problem's solver."""
+"""Steps: failed and interrupted ones, reuse of what was assembled, loads, several contacts."""
 
 import gc
 import weakref
@@ -12,12 +12,13 @@ import pytest
 
 import contactx as cx
 import ufl
+from dolfinx import default_scalar_type, fem
 from dolfinx.mesh import CellType
 
 from meshes import Tag
 from scenes import Blocks
-from scenes.covering import METHODS, covering
 from scenes.steps import Sheared
+from story import fix
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -71,50 +72,6 @@ def test_a_body_that_is_pulled_away_says_so():
     with pytest.raises(cx.ConvergenceError):
         problem.solve()
     assert not scene.u.x.array.any()
-
-
-@covering(part=("residual", "jacobian", "unpack"), call=(1, 3), method=METHODS)
-def test_an_interrupt_anywhere_leaves_everything_as_it_was(monkeypatch, part, call):
-    scene = Blocks(CellType.tetrahedron)
-    contact = scene.contact()
-    problem = scene.problem(contact)
-    system, calls = problem.assembler.system, []
-    real = getattr(system, part)
-
-    def interrupted(*args, **options):
-        calls.append(part)
-        if len(calls) == call:
-            raise KeyboardInterrupt
-        return real(*args, **options)
-
-    monkeypatch.setattr(system, part, interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        problem.solve()
-    assert not scene.u.x.array.any()
-    assert not contact.multiplier.any()
-    problem.solve()
-    assert problem.report.converged
-    other = Blocks(CellType.tetrahedron)
-    same = other.contact()
-    other.problem(same).solve()
-    assert contact.force == pytest.approx(same.force, rel=1e-12, abs=1e-15)
-
-
-def test_a_failed_step_brings_the_pairs_back():
-    """Pairs that the failed iterates made are gone: the next step is as if it had not been."""
-    scene = Blocks(CellType.quadrilateral, n_upper=6, n_lower=9)
-    contact = scene.contact()
-    problem = scene.problem(contact, petsc_options={"snes_max_it": 6})
-    problem.solve()
-    nodes = [pairs.nodes.copy() for pairs in contact.discrete.master.pairs()]
-    data = [pairs.data.copy() for pairs in contact.discrete.master.pairs()]
-    scene.bcs[0].g.value[...] = 0.4
-    scene.bcs[-1].g.value[...] = -0.9
-    with pytest.raises(cx.ConvergenceError):
-        problem.solve()
-    for pairs, before, values in zip(contact.discrete.master.pairs(), nodes, data, strict=True):
-        assert np.array_equal(pairs.nodes, before)
-        assert np.array_equal(pairs.data, values)
 
 
 def test_a_failed_step_brings_back_which_nodes_can_yield():
@@ -179,18 +136,6 @@ def test_other_direct_solvers(monkeypatch, solver):
     assert contact.force == pytest.approx(other.force, rel=1e-9, abs=1e-12)
 
 
-def test_a_refused_problem_frees_its_contacts():
-    scene = Blocks(CellType.tetrahedron)
-    good = scene.contact()
-    bad = cx.Contact(
-        cx.Surface(scene.tags, Tag.UPPER_CONTACT), cx.Surface(scene.tags, Tag.UPPER_X0)
-    )
-    with pytest.raises(ValueError, match="faces away"):
-        scene.problem(good, bad)
-    scene.problem(good).solve()
-    assert good.force[2] > 0
-
-
 def test_user_options_reach_petsc():
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(
@@ -200,3 +145,198 @@ def test_user_options_reach_petsc():
     rtol, _, _, max_it = problem.solver.getTolerances()
     assert (rtol, max_it) == (1e-6, 33)
     assert problem.solver.getKSP().getType() == "gmres"
+
+
+def test_changed_loads_are_seen():
+    scene = Blocks(CellType.tetrahedron, down=0.0, gap=0.01)
+    load = fem.Constant(scene.u.function_space.mesh, default_scalar_type(0.02))
+    v = ufl.TestFunction(scene.u.function_space)
+    ds = ufl.Measure("ds", scene.u.function_space.mesh, subdomain_data=scene.tags)
+    scene.bcs = scene.bcs[:5]
+    scene.F += load * v[2] * ds(Tag.UPPER_TOP)
+    scene.bcs.append(fix(scene.u, scene.tags, 2, 0.0, Tag.UPPER_X0, Tag.UPPER_X1))
+    contact = scene.contact("small")
+    problem = scene.problem(contact)
+    problem.solve()
+    first = scene.u.x.array.copy()
+    load.value = 0.04
+    problem.solve()
+    assert problem.assembler.bulk.assemblies == 1
+    assert np.abs(scene.u.x.array - first).max() > 0.1 * np.abs(first).max()
+
+
+def test_constraints_without_free_displacements_stay_open():
+    """Where the supports of both bodies meet a gap of zero leaves nothing to solve for."""
+    scene = Blocks(CellType.quadrilateral, n_upper=4, n_lower=6, down=0.0)
+    v = ufl.TestFunction(scene.u.function_space)
+    scene.bcs = [fix(scene.u, scene.tags, i, 0.0, Tag.LOWER_BOTTOM, Tag.UPPER_X0) for i in range(2)]
+    scene.bcs += [fix(scene.u, scene.tags, i, 0.0, Tag.LOWER_CONTACT) for i in range(2)]
+    ds = ufl.Measure("ds", scene.u.function_space.mesh, subdomain_data=scene.tags)
+    scene.F += 0.01 * v[1] * ds(Tag.UPPER_TOP)
+    for sliding in ("finite", "small"):
+        contact = scene.contact(sliding)
+        problem = scene.problem(contact)
+        scene.u.x.array[:] = 0
+        problem.solve()
+        assert problem.report.immobile == 1
+        assert "1 immobile" in str(problem.report)
+        assert 0 < contact.force[1] < 0.02
+        assert np.abs(contact.multiplier).max() < 1
+
+
+def test_a_linear_bulk_is_assembled_once_and_again_when_a_constant_changes():
+    scene = Blocks(CellType.tetrahedron)
+    E = fem.Constant(scene.u.function_space.mesh, default_scalar_type(1.0))
+    scene.F = E * scene.F
+    contact = scene.contact()
+    problem = scene.problem(contact)
+    problem.solve()
+    assert problem.assembler.bulk.is_linear
+    assert problem.assembler.bulk.assemblies == 1
+    assert problem.report.skipped["bulk Jacobian assembly"] == problem.report.iterations
+    force = contact.force.copy()
+    scene.bcs[-1].g.value[...] *= 1.1
+    problem.solve()
+    assert problem.assembler.bulk.assemblies == 1
+    scene.bcs[-1].g.value[...] /= 1.1
+    E.value = 3.0
+    problem.solve()
+    assert problem.assembler.bulk.assemblies == 2
+    assert contact.force == pytest.approx(3 * force, rel=1e-9, abs=1e-12)
+
+
+def test_loading_and_unloading_opens_again():
+    scene = Blocks(CellType.quadrilateral, down=0.05, gap=0.01)
+    contact = scene.contact()
+    problem = scene.problem(contact)
+    problem.solve()
+    loaded = contact.force.copy()
+    assert loaded[1] > 0
+    scene.bcs[-1].g.value[...] = 0.0
+    problem.solve()
+    assert not contact.force.any()
+    assert np.abs(scene.u.x.array).max() <= 1e-14
+    scene.bcs[-1].g.value[...] = -0.05
+    problem.solve()
+    assert contact.force == pytest.approx(loaded, rel=1e-10, abs=1e-14)
+
+
+def test_an_open_contact_changes_nothing():
+    scene = Blocks(CellType.tetrahedron)
+    one = scene.contact()
+    side = cx.Contact(cx.Surface(scene.tags, Tag.UPPER_X1), cx.Plane((9, 0, 0), (-1, 0, 0)))
+    problem = scene.problem(one, side)
+    problem.solve()
+    alone = Blocks(CellType.tetrahedron)
+    contact = alone.contact()
+    alone.problem(contact).solve()
+    assert not side.force.any()
+    assert one.force == pytest.approx(contact.force, rel=1e-12, abs=1e-15)
+    assert len(problem.report.force) == 2
+
+
+def test_touching_without_force():
+    """Gaps that are zero but for rounding neither chatter nor make the system singular."""
+    for sliding in ("finite", "small"):
+        scene = Blocks(CellType.tetrahedron, down=0.0, n_upper=3, n_lower=4)
+        contact = scene.contact(sliding)
+        problem = scene.problem(contact)
+        problem.solve()
+        assert problem.report.iterations <= 1
+        assert np.abs(scene.u.x.array).max() <= 1e-15
+        assert np.abs(contact.multiplier).max() <= 1e-13
+
+
+def test_a_body_that_has_run_away_is_no_solution(method):
+    """Whatever rounding makes of its forces."""
+    scene = Blocks(CellType.quadrilateral)
+    problem = scene.problem(scene.contact())
+    problem.solve()
+    system, convergence = problem.assembler.system.core, problem.assembler.loop.convergence
+    b = np.empty(system.offsets[-1])
+
+    system.residual(b)
+    residual, tolerance, _ = convergence.compare(b, 1e-11, 0.0)
+    assert residual <= tolerance
+    free = np.flatnonzero(problem.assembler.bulk.markers == 0)[0]
+    scene.u.x.array[free] = 1e5
+    residual, tolerance, _ = convergence.compare(b, 1e-11, 0.0)
+    assert tolerance == 0
+
+
+def test_slave_and_master_may_change_roles():
+    """Not the same constraints, but answers that approach each other with the mesh size."""
+    forces = []
+    for swap in (False, True):
+        scene = Blocks(CellType.quadrilateral, n_upper=16, n_lower=24)
+        surfaces = [
+            cx.Surface(scene.tags, Tag.UPPER_CONTACT),
+            cx.Surface(scene.tags, Tag.LOWER_CONTACT),
+        ]
+        contact = cx.Contact(*(surfaces[::-1] if swap else surfaces))
+        scene.problem(contact).solve()
+        forces.append(-contact.force if swap else contact.force)
+    assert forces[0][1] == pytest.approx(forces[1][1], rel=0.03)
+
+
+def test_report_and_table_fit_a_terminal():
+    scene = Blocks(CellType.tetrahedron)
+    problem = scene.problem(scene.contact())
+    problem.solve()
+    text = str(problem.report)
+    assert max(map(len, text.splitlines())) <= 100
+    assert f"converged after {problem.report.iterations} iterations" in text
+    assert "9 of 9 slave nodes have a pair" in text
+    assert "force on the slave" in text
+    assert "skipped: bulk Jacobian assembly" in text
+    assert problem.report.times["total"] > 0
+    assert problem.report.history[0].number == 0
+    numbers = [row.number for row in problem.report.history]
+    assert numbers == list(range(problem.report.iterations + 1))
+
+
+def test_a_contact_that_a_dirichlet_value_closes_by_force():
+    """Prescribed displacement of the top in two steps gives what one step gives (no history)."""
+    one, two = Blocks(CellType.tetrahedron), Blocks(CellType.tetrahedron)
+    contact = one.contact()
+    one.problem(contact).solve()
+    two.bcs[-1] = fix(two.u, two.tags, 2, -0.02, Tag.UPPER_TOP)
+    stepped = two.contact()
+    problem = two.problem(stepped)
+    problem.solve()
+    two.bcs[-1].g.value[...] = -0.05
+    problem.solve()
+    assert stepped.force == pytest.approx(contact.force, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])
+def test_moments_of_both_sides_and_of_another_point(cell):
+    """About two points they differ by the force's; the forces act where the slave nodes are."""
+    scene = Blocks(cell)
+    contact = scene.contact(friction=0.3)
+    scene.problem(contact).solve()
+    gdim = len(contact.force)
+    a, b = np.zeros(gdim), np.arange(1.0, gdim + 1)
+    arm = a - b
+    if gdim == 2:
+        turned = arm[0] * contact.force[1] - arm[1] * contact.force[0]
+    else:
+        turned = np.cross(arm, contact.force)
+    np.testing.assert_allclose(contact.moment(b), contact.moment(a) + turned, rtol=1e-12)
+    x = contact.discrete.positions()[contact.slave_nodes]
+    forces = contact.area[:, None] * contact.multiplier
+    if scene.u.function_space.mesh.geometry.dim == 2:
+        by_hand = (x[:, 0] * forces[:, 1] - x[:, 1] * forces[:, 0]).sum()
+    else:
+        by_hand = np.cross(x, forces).sum(axis=0)
+    np.testing.assert_allclose(contact.moment(a), by_hand, rtol=1e-12, atol=1e-14)
+    with pytest.raises(ValueError, match="finite numbers"):
+        contact.moment(np.zeros(gdim + 1))
+    with pytest.raises(TypeError, match="real numbers"):
+        contact.moment("here")
+
+
+def test_what_users_see_are_the_names_for_them():
+    names = [name for name in dir(cx) if not name.startswith("_")]
+    assert set(names) == set(cx.__all__)
+    assert all(hasattr(cx, name) for name in names)

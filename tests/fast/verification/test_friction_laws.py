@@ -13,6 +13,7 @@ from dolfinx import fem, mesh
 
 import story
 from scenes.coulomb import parts
+from scenes.grids import faces
 from scenes.problems import make_problem
 
 PRESSURE = 0.2
@@ -29,21 +30,13 @@ class Pushed:
             domain = mesh.create_rectangle(MPI.COMM_WORLD, [[0, 0], [2, 1]], [8, 4])
         else:
             domain = mesh.create_box(MPI.COMM_WORLD, [[0, 0, 0], [2, 1, 1]], [4, 2, 2])
-        facets = [
-            mesh.locate_entities_boundary(
-                domain, dim - 1, lambda x, at=at: np.isclose(x[dim - 1], at)
-            )
-            for at in (0, 1)
-        ]
-        order = np.argsort(np.concatenate(facets))
-        values = np.repeat([1, 2], [len(f) for f in facets]).astype(np.int32)
-        tags = mesh.meshtags(domain, dim - 1, np.concatenate(facets)[order], values[order])
+        tags = faces(domain, [(dim - 1, 0), (dim - 1, 1)])
         self.u = u = story.displacement(domain)
         load = fem.Constant(domain, -PRESSURE * np.eye(dim)[-1])
         F = story.elasticity(u, 10.0, 0.0) + story.traction(u, tags, 2, load)
         self.push = fem.Constant(domain, 0.0)
         V = u.function_space.sub(0)
-        dofs = fem.locate_dofs_topological(V, dim - 1, facets[1])
+        dofs = fem.locate_dofs_topological(V, dim - 1, tags.find(2))
         bcs = [fem.dirichletbc(self.push, dofs, V)]
         bcs += [story.fix(u, tags, i, 0.0, 2) for i in range(1, dim - 1)]
         if held:

@@ -14,7 +14,17 @@ import meshes
 from meshes import Tag
 from scenes import CELLS, dimension
 from scenes.covering import covering
-from scenes.transforms import Frame, Support, differences, numbered, renumbered, rotation, solve
+from scenes.transforms import (
+    Frame,
+    Support,
+    differences,
+    jacobians,
+    numbered,
+    oriented,
+    renumbered,
+    rotation,
+    solve,
+)
 
 TRIANGLE, QUADRILATERAL, TETRAHEDRON, HEXAHEDRON = CELLS
 NODES, FACETS = "node-to-surface", "surface-to-surface"
@@ -259,3 +269,39 @@ def test_default_search_distance_does_not_turn():
         warnings.simplefilter("ignore")  # transmits no force
         answer = solve(scene, supports, sliding="small")
     check(answer, first)
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+@pytest.mark.parametrize(
+    "cell",
+    CELLS,
+    ids=lambda c: c.name,
+)
+def test_inverted_cells_have_the_same_contact(cell, sliding):
+    """Facets point outward by where their cells are, whatever the order of nodes."""
+    gdim = dimension(cell)
+    first = numbered(
+        meshes.blocks(
+            cell,
+            (3,) * gdim,
+            (4,) * gdim,
+            size_lower=(1.5,) * (gdim - 1) + (1.0,),
+            shift=(0.217, 0.243)[: gdim - 1],
+            gap=0.01,
+        )
+    )
+    supports = (
+        Support((Tag.LOWER_BOTTOM,), tuple(range(gdim)), (0.0,) * gdim),
+        Support((Tag.UPPER_TOP,), tuple(range(gdim)), (0.0,) * (gdim - 1) + (-0.06,)),
+    )
+    answer = {}
+    for sign in (1, -1):
+        scene = oriented(first, sign)
+        assert np.all(jacobians(scene) == sign)
+        answer[sign] = solve(scene, supports, sliding=sliding)
+    assert (answer[1].pressure > 0).sum() > 3
+    assert answer[-1].iterations == answer[1].iterations
+    np.testing.assert_array_equal(answer[-1].status, answer[1].status)
+    off = differences(answer[-1], answer[1])
+    print(off)
+    assert max(off.values()) <= 1e-9

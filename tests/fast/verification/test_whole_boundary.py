@@ -1,6 +1,8 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""A slave tag that goes around the edges of a body: tractions act in front of the master alone."""
+"""Slave tags that go around bodies: tractions act in front of the master, up to the edges."""
+
+from dataclasses import replace
 
 from mpi4py import MPI
 
@@ -11,7 +13,11 @@ import contactx as cx
 import ufl
 from dolfinx import default_scalar_type, fem, mesh
 
+from meshes import FACE_SLABS
+from scenes.grids import outside, tagged
 from scenes.problems import make_problem
+from slab_scene import Setting
+from slab_schemes import scheme_1
 from story import displacement, elasticity
 
 CELLS = [
@@ -40,9 +46,7 @@ class PressedBlock:
         self.up = turn[:gdim, gdim - 1]
         self.u = u = displacement(domain)
         V, x = u.function_space, ufl.SpatialCoordinate(domain)
-        domain.topology.create_connectivity(gdim - 1, gdim)
-        facets = mesh.exterior_facet_indices(domain.topology)
-        tags = mesh.meshtags(domain, gdim - 1, facets, np.ones(len(facets), dtype=np.int32))
+        tags = tagged(domain, outside(domain))
         height = sum(float(a) * x[i] for i, a in enumerate(self.up))
         on_top = ufl.conditional(ufl.gt(height, 1 - 1e-9), 1.0, 0.0)
         load = fem.Constant(domain, default_scalar_type(-self.up))
@@ -111,11 +115,9 @@ def test_a_round_body_that_rolls_keeps_forces():
     length = np.linalg.norm(p, axis=1)
     p *= np.divide(size, length, out=np.ones_like(size), where=length > 0)[:, None]
     domain.geometry.x[:, :2] = p + np.array([0, 1])
-    domain.topology.create_connectivity(1, 2)
     u = displacement(domain)
     V = u.function_space
-    facets = mesh.exterior_facet_indices(domain.topology)
-    tags = mesh.meshtags(domain, 1, facets, np.ones(len(facets), dtype=np.int32))
+    tags = tagged(domain, outside(domain))
     core = fem.locate_dofs_geometrical(V, lambda x: x[0] ** 2 + (x[1] - 1) ** 2 < 0.12)
     turned = fem.Function(V)
     bc = fem.dirichletbc(turned, core)
@@ -135,3 +137,22 @@ def test_a_round_body_that_rolls_keeps_forces():
         assert contact.force == pytest.approx(force, rel=1e-9)
         forces = contact.area[:, None] * contact.multiplier
         assert forces.sum(axis=0) == pytest.approx(force, rel=1e-9)
+
+
+# Of the slabs beside it on 40 layers, MPa
+STRESS = 18.15
+
+
+@pytest.mark.parametrize(("method", "rows"), [("node-to-surface", 3), ("surface-to-surface", 4)])
+def test_pressure_at_the_edge_of_a_joint(method, rows):
+    """Three or four rows of nodes are closed, and averages of them are a third too low."""
+    setting = Setting(replace(FACE_SLABS["slice"], layers=10), method=method)
+    scene = scheme_1(setting, 0.0909, 0.3, steps=1, progress=False)
+    joint = scene.joints[0]
+    raw, area = joint.discrete.nodes.pressure, joint.discrete.nodes.area
+    p = joint.pressure.x.array[joint.slave_nodes]
+    assert np.sum(joint.discrete.nodes.closed) == 2 * rows
+    assert p.max() == pytest.approx(STRESS, rel=0.05)
+    assert p.max() > raw.max()
+    assert area @ p == pytest.approx(area @ raw, rel=1e-12)
+    assert np.all(p[joint.discrete.nodes.closed] > 0)
