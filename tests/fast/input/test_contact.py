@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import contactx as cx
+import ufl
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -62,6 +63,14 @@ def numbers(name, finite, some=None):
 
 ROWS = {
     TypeError: [
+        (option(smooth=0.1), "smooth"),
+        (option(weight="r"), "weight must be a number or an expression of UFL"),
+        (option(weight=lambda x: x), "weight must be a number"),
+        (lambda: cx.FrictionLaw(0.3), "f of a FrictionLaw must be a function, not float"),
+        (
+            lambda: cx.FrictionLaw(lambda p, s: p, 0.3),
+            "gradient of a FrictionLaw must be a function",
+        ),
         (option(adjust="0.1"), "adjust is str '0.1': give a length"),
         (
             lambda: function("friction", 0.3, dtype=np.complex128),
@@ -77,6 +86,10 @@ ROWS = {
         (lambda: later("active", "no"), "active is str 'no': give True or False"),
     ],
     ValueError: [
+        (option(weight=0.0), "weight is 0.0: give a positive number"),
+        (option(weight=-1), "weight is -1"),
+        (option(weight=np.nan), "weight is nan"),
+        (option(weight=ufl.as_vector([1.0, 2.0])), "scalar"),
         (option(adjust=-1.0), "adjust is -1: give a finite length"),
         (option(adjust=float("nan")), "adjust is nan: give a finite"),
         (option(adjust=0.1, tied=True), "a tie keeps the gaps"),

@@ -53,6 +53,11 @@ BAD_RADIUS = "radius of a Sphere is .*: give a positive number"
 BAD_LEVEL = "function of a LevelSet or its gradient is not finite, or the gradient zero, at 3 slave"
 ROWS = {
     TypeError: [
+        (
+            lambda: cx.LevelSet(up, velocity=1.0, time=0.0),
+            "velocity of a LevelSet must be a function, not float",
+        ),
+        (lambda: cx.LevelSet(up, velocity=up, time="now"), "time of a LevelSet is 'now'"),
         (plane("ab"), BAD_VECTOR.format("point of a Plane")),
         (plane((0, 1j)), BAD_VECTOR.format("point of a Plane")),
         (plane([[1], [1, 2]]), BAD_VECTOR.format("point of a Plane")),
@@ -75,6 +80,8 @@ ROWS = {
         ),
     ],
     ValueError: [
+        (lambda: cx.LevelSet(up, velocity=up), "has a velocity but no time"),
+        (lambda: cx.LevelSet(up, time=0.0), "has a time but no velocity"),
         (plane((0, 0, 0)), BAD_VECTOR.format("point of a Plane")),
         (plane(constant((0.0, np.nan))), BAD_VECTOR.format("point of a Plane")),
         (plane((0.0, -np.inf)), BAD_VECTOR.format("point of a Plane")),

@@ -14,8 +14,7 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
-from scenes.restarts import QUICK, SCENES, check_restart, run
-from scenes.steps import Sheared, SlidingBlocks
+from scenes.steps import QUICK, SCENES, Sheared, SlidingBlocks, check_restart, run
 
 
 # The others are in tests/verify

@@ -147,23 +147,6 @@ def test_a_failed_step_of_one_with_a_velocity_leaves_no_trace():
     assert (scene.scene.u.x.array == same.scene.u.x.array).all()
 
 
-def test_a_velocity_needs_a_time_and_a_function():
-    def level(x):
-        return x[1]
-
-    def still(x):
-        return 0 * x
-
-    with pytest.raises(TypeError, match="velocity of a LevelSet must be a function, not float"):
-        cx.LevelSet(level, velocity=1.0, time=0.0)
-    with pytest.raises(ValueError, match="has a velocity but no time"):
-        cx.LevelSet(level, velocity=still)
-    with pytest.raises(ValueError, match="has a time but no velocity"):
-        cx.LevelSet(level, time=0.0)
-    with pytest.raises(TypeError, match="time of a LevelSet is 'now'"):
-        cx.LevelSet(level, velocity=still, time="now")
-
-
 @pytest.mark.parametrize(
     ("velocity", "message"),
     [

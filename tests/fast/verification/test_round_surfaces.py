@@ -101,12 +101,6 @@ def test_what_it_is_not_for(options, why):
         make_problem(blocks.F, blocks.u, [contact], blocks.bcs)
 
 
-def test_it_is_a_switch():
-    blocks = Blocks(CellType.quadrilateral)
-    with pytest.raises(TypeError, match="smooth"):
-        blocks.contact(smooth=0.1)
-
-
 SLIDING = ["finite", "small"]
 # In finite sliding forces turn with the surfaces, and act across what is between them
 TOLERANCE = {"small": 1e-9, "finite": 2e-4}

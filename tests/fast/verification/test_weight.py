@@ -173,23 +173,6 @@ def test_values_between_nodes_are_interpolated():
     assert contact.area.sum() == pytest.approx(np.sum(np.diff(s) * (w[1:] + w[:-1]) / 2))
 
 
-@pytest.mark.parametrize(
-    ("weight", "error", "words"),
-    [
-        (0.0, ValueError, "weight is 0.0: give a positive number"),
-        (-1, ValueError, "weight is -1"),
-        (np.nan, ValueError, "weight is nan"),
-        ("r", TypeError, "weight must be a number or an expression of UFL"),
-        (lambda x: x, TypeError, "weight must be a number"),
-        (ufl.as_vector([1.0, 2.0]), ValueError, "scalar"),
-    ],
-)
-def test_what_is_no_weight_is_refused(weight, error, words):
-    scene = Blocks(CellType.triangle)
-    with pytest.raises(error, match=words):
-        scene.contact(weight=weight)
-
-
 def test_weights_that_do_not_fit_the_surface_are_refused():
     scene, other = Blocks(CellType.triangle), Blocks(CellType.triangle)
     x = ufl.SpatialCoordinate(scene.u.function_space.mesh)

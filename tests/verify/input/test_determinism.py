@@ -13,7 +13,7 @@ import pytest
 import contactx as cx
 from dolfinx.mesh import CellType
 
-from scenes import restarts
+from scenes import steps as restarts
 from scenes.steps import KINDS, DentedBlock, LooseBlock, Rubbing, SlidingBlocks, state
 from tether import environment, tethered
 
@@ -84,7 +84,7 @@ def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
     straight, _ = restarts.run(restarts.SCENES[name]())
     restarts.run(restarts.SCENES[name](), until=4, checkpoint=tmp_path / "run.npz")
     program = (
-        "import contactx, sys, scenes.restarts as t\n"
+        "import contactx, sys, scenes.steps as t\n"
         f"bits, _ = t.run(t.SCENES[{name!r}](), restart='run.npz')\n"
         "sys.stdout.buffer.write(b''.join(bits))"
     )
