@@ -2,6 +2,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Scripts on several ranks: ``launch`` starts them, ``watch`` ends what hangs.
 
-The scripts that the tests launch are here too, with what they share: ``run_cases`` solves ``cases``
-on partitions of any kind, and ``outcome`` compares what came out.
+The scripts that the tests launch are here too, with what they share: ``cases`` are
+solved on partitions of any kind, and ``outcome`` compares what came out.
 """

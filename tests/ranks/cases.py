@@ -1,17 +1,32 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Scenes, methods and partitions that are run on several ranks."""
+"""Scenes, methods and partitions that are run on several ranks.
+
+Run under mpiexec it solves cases and writes what came out, for test_ranks.py to compare.
+"""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+
+from mpi4py import MPI
+
+import numpy as np
 
 import contactx as cx
 
-from ranks import partitions, scenes_coupled, scenes_elastic, scenes_moving, scenes_several
+from ranks import partitions, scenes_coupled, scenes_elastic, scenes_moving, scenes_several, watch
+from ranks.outcome import Outcome
+from ranks.partitions import partitioned
 
+# Seconds a case may take on cores that others use, too, with forms to compile
+LIMIT = 90
 METHODS = {"node": "node-to-surface", "surface": "surface-to-surface"}
 _MODULES = (scenes_elastic, scenes_several, scenes_coupled, scenes_moving)
 
@@ -57,3 +72,36 @@ class Case:
     def read(cls, text: str) -> Case:
         """A case from its text."""
         return cls(*text.split("-"))
+
+
+def run(case: Case) -> dict[str, np.ndarray]:
+    """Solve a case; what came out is on rank 0."""
+    cx.Contact.__init__.__kwdefaults__["method"] = METHODS[case.method]
+    outcome = Outcome()
+    with partitioned(case.partition):
+        for problem in SCENES[case.scene]():
+            outcome.add(problem)
+    return outcome.gather(problem)
+
+
+def main(argv: Sequence[str]) -> None:
+    """Solve the cases named, and write the results into the folder named first."""
+    comm = MPI.COMM_WORLD
+    for name in argv[1:]:
+        watch.begin(name, LIMIT)
+        start = time.perf_counter()
+        try:
+            found = run(Case.read(name))
+        except Exception:
+            # The other ranks must have it, too, or the watch will say so
+            found = {"error": np.array(traceback.format_exc())}
+            print(f"{name}, rank {comm.rank}: {found['error']}", flush=True)
+        comm.Barrier()
+        if comm.rank == 0:
+            seconds = time.perf_counter() - start
+            np.savez(Path(argv[0]) / f"{name}-{comm.size}.npz", seconds=seconds, **found)
+    watch.begin("the end", LIMIT)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

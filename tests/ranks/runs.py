@@ -15,7 +15,7 @@ from ranks.cases import Case
 from ranks.launch import SCRIPTS, launch_together
 from ranks.outcome import Array, differences
 
-SCRIPT = SCRIPTS / "run_cases.py"
+SCRIPT = SCRIPTS / "cases.py"
 TOLERANCE = 1e-9
 # Iterations may differ: on the way out of yield rounding decides which tangent the material has,
 # and early solves of the condensed solver are as rough as the preconditioner of the ranks' parts

@@ -1,11 +1,13 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What most scenes do alike: the contact of two bodies, and the problem of some contacts."""
+"""What most scenes do alike: the contact of two bodies, problems, direct solvers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
+
+from petsc4py import PETSc
 
 import contactx as cx
 from dolfinx import fem, mesh
@@ -29,3 +31,12 @@ def make_problem(
     """A problem whose options of PETSc have a prefix of the tests."""
     options = {"petsc_options_prefix": "tests_", **options}
     return cx.ContactProblem(F, u, contacts=contacts, bcs=bcs, **options)
+
+
+def direct_solver() -> PETSc.KSP:
+    """For Newton loops of one's own."""
+    ksp = PETSc.KSP().create()
+    ksp.setType("preonly")
+    ksp.getPC().setType("lu")
+    ksp.getPC().setFactorSolverType("mumps")
+    return ksp

@@ -17,6 +17,7 @@ from meshes import Tag
 from scenes.blocks import Blocks
 from scenes.coupled import Coupled
 from scenes.materials import neo_hookean
+from scenes.problems import direct_solver
 from story import METHODS
 
 
@@ -26,18 +27,10 @@ def make(cell=CellType.triangle, **options):
     return scene, contact, cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
 
 
-def direct(comm):
-    ksp = PETSc.KSP().create(comm)
-    ksp.setType("preonly")
-    ksp.getPC().setType("lu")
-    ksp.getPC().setFactorSolverType("mumps")
-    return ksp
-
-
 def solve(assembler, stop=50):
     """Solve; or take some steps."""
     b, dx = assembler.create_vector(), assembler.create_vector()
-    ksp = direct(b.comm)
+    ksp = direct_solver()
     assembler.begin_step()
     while not assembler.settle().converged and stop > 0:
         stop -= 1
@@ -169,7 +162,7 @@ def test_nothing_works_before_a_step_begins(call):
         "residual": assembler.create_vector(),
         "limit": assembler.create_vector(),
         "update": assembler.create_vector(),
-        "set_up": direct(assembler.x.comm),
+        "set_up": direct_solver(),
     }
     arguments = [given[call]] if call in given else []
     with pytest.raises(RuntimeError, match=rf"{call}\(\) before begin_step\(\)"):
@@ -180,7 +173,7 @@ def test_nothing_works_before_a_step_begins(call):
 def test_some_calls_want_an_iterate_that_has_settled(call):
     _, _, assembler = make()
     dx = assembler.create_vector()
-    given = {"set_up": [direct(dx.comm)], "limit": [dx], "accept": []}[call]
+    given = {"set_up": [direct_solver()], "limit": [dx], "accept": []}[call]
     assembler.begin_step()
     with pytest.raises(RuntimeError, match=rf"{call}\(\) before settle\(\)"):
         getattr(assembler, call)(*given)

@@ -9,7 +9,6 @@ depend on how much of a Newton step is taken.
 from functools import partial
 
 from mpi4py import MPI
-from petsc4py import PETSc
 
 import numpy as np
 import pytest
@@ -24,6 +23,7 @@ from scenes.coulomb import parts
 from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
 from scenes.materials import neo_hookean
+from scenes.problems import direct_solver
 from scenes.tower import Tower, lift
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -101,10 +101,7 @@ class PressedBlock(DrivenBlock):
     def run(self, first):
         """Newton steps by hand, of the first one a part."""
         assembler = self.problem.assembler
-        ksp = PETSc.KSP().create(MPI.COMM_WORLD)
-        ksp.setType("preonly")
-        ksp.getPC().setType("lu")
-        ksp.getPC().setFactorSolverType("mumps")
+        ksp = direct_solver()
         b, dx = assembler.create_vector(), assembler.create_vector()
         assembler.begin_step()
         part = first

@@ -6,8 +6,6 @@ from __future__ import annotations
 
 import importlib
 
-from petsc4py import PETSc
-
 import numpy as np
 import press_fit as press_fit_demo
 import pytest
@@ -24,7 +22,7 @@ from scenes import dimension
 from scenes.blocks import CELLS, PLANE, Blocks
 from scenes.covering import METHODS, covering
 from scenes.materials import st_venant_kirchhoff
-from scenes.problems import make_problem, pair_of
+from scenes.problems import direct_solver, make_problem, pair_of
 
 LAWS = {
     "frictionless": {},
@@ -102,10 +100,7 @@ def blocks(cell: CellType, **options) -> tuple[cx.ContactAssembler, cx.Contact, 
 def test_jacobians_are_derivatives(cell, method, options):
     assembler, contact, u = blocks(cell, method=method, **options)
     b, dx = assembler.create_vector(), assembler.create_vector()
-    ksp = PETSc.KSP().create()
-    ksp.setType("preonly")
-    ksp.getPC().setType("lu")
-    ksp.getPC().setFactorSolverType("mumps")
+    ksp = direct_solver()
     A = None
     assembler.begin_step()
     for _ in range(3):
