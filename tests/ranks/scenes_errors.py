@@ -29,8 +29,7 @@ from meshes import Tag
 from ranks import watch
 from ranks.partitions import partitioned
 from scenes import NU, Blocks
-from scenes.full_steps import limit
-from scenes.held_sheet import HeldSheet
+from scenes.held_sheet import HeldSheet, limit
 from scenes.materials import st_venant_kirchhoff
 from scenes.punched_block import PunchedBlock
 from scenes.refilled import sizes

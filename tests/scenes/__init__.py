@@ -25,10 +25,9 @@ Others:
 
 What they are made of:
 
-- ``materials``: neo-Hookean bodies, and values that differ between bodies; the linear material is
-  that of the demos' ``story``.
-- ``plasticity``: a material with a history.
-- ``problems``: the contact of two bodies, and the problem of some contacts.
+- ``materials``: neo-Hookean and plastic bodies, and values that differ between bodies; the linear
+  material is that of the demos' ``story``.
+- ``problems``: the contact of two bodies, and the problem of some contacts; ``grids``: meshes.
 - ``supports``: faces that are fixed or driven.
 - ``coulomb``: the check of Coulomb's law at slave nodes.
 - ``covering``: which combinations of parameters a test runs (needs pytest, as nothing else here).

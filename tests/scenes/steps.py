@@ -17,8 +17,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag
 from scenes.blocks import NU, Blocks
-from scenes.materials import neo_hookean
-from scenes.plasticity import Plastic
+from scenes.materials import Plastic, neo_hookean
 from scenes.problems import make_problem
 from story import displacement, fix, traction
 

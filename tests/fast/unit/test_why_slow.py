@@ -14,8 +14,7 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import NU, Blocks
-from scenes.materials import neo_hookean
-from scenes.plasticity import Plastic
+from scenes.materials import Plastic, neo_hookean
 from story import elasticity
 
 QUOTIENT = "the Jacobian is not the derivative of F: along the last step it differs by"

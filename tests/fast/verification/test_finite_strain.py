@@ -14,8 +14,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes.materials import neo_hookean
-from scenes.plasticity import Plastic
+from scenes.materials import Plastic, neo_hookean
 from scenes.problems import make_problem, pair_of
 from story import displacement, elasticity, fix
 

@@ -13,7 +13,7 @@ from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import Blocks, slender
-from scenes.full_steps import limit
+from scenes.held_sheet import limit
 from scenes.materials import neo_hookean, st_venant_kirchhoff
 from scenes.roller import Roller
 from story import METHODS, elasticity

@@ -18,8 +18,7 @@ from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
 from scenes import CELLS, dimension
-from scenes.full_steps import limit
-from scenes.held_sheet import RADIUS, HeldSheet, cylinder, disc, level_set
+from scenes.held_sheet import RADIUS, HeldSheet, cylinder, disc, level_set, limit
 from scenes.materials import neo_hookean, st_venant_kirchhoff
 from scenes.roller import Roller
 from scenes.two_tips import TwoTips
