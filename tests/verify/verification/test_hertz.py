@@ -1,11 +1,12 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Hertz's problem: tetrahedra, hexahedra, hard starts, friction, and two spheres under a force.
+"""Hertz's problem: tetrahedra, hexahedra, hard starts, friction, two spheres, and a cylinder.
 
 Two independent codes with exact node-to-surface multipliers give the first of the total forces
 below; those of surface-to-surface are what contactx has found once.
 """
 
+import hertz_cylinder
 import hertz_sphere as demo
 import numpy as np
 import pytest
@@ -332,3 +333,34 @@ def test_current_area():
     radius, peak = scene.errors(scene.contact.multiplier)
     assert radius == pytest.approx(-0.024, abs=3e-3)
     assert peak == pytest.approx(0.05, abs=0.02)
+
+
+def errors_of_cylinder(h, sliding):
+    """Relative errors of half-width and peak pressure."""
+    problem, contact = hertz_cylinder.create(h, sliding)
+    problem.solve()
+    assert problem.report.iterations <= 10
+    assert np.nanmin(contact.discrete.nodes.gap) > -1e-12
+    E, nu = hertz_cylinder.E, hertz_cylinder.NU
+    hertz = reference.HertzCylinder(
+        force=2 * contact.force[1], radius=1.0, modulus=reference.contact_modulus(E, nu, E, nu)
+    )
+    x = problem.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes, 0]
+    width = hertz_cylinder.half_width(x, contact.multiplier)
+    result = (
+        width / hertz.half_width - 1,
+        contact.multiplier.max() / hertz.peak_pressure - 1,
+    )
+    print(f"{sliding} h={h}: half-width {result[0]:+.4f}, peak pressure {result[1]:+.4f}")
+    return np.abs(result)
+
+
+@pytest.mark.usefixtures("method")
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_cylinder_on_the_default_mesh(sliding):
+    assert np.all(errors_of_cylinder(0.006, sliding) <= 0.03)
+
+
+@pytest.mark.parametrize("sliding", ["finite", "small"])
+def test_a_finer_cylinder_is_better(sliding):
+    assert np.all(errors_of_cylinder(0.002, sliding) < errors_of_cylinder(0.006, sliding))
