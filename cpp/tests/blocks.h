@@ -197,14 +197,8 @@ struct RankBlocks
     for (const std::int32_t node : mine)
       if (all.nodes.owner[node] != ranks.rank())
         ghosts.push_back(node);
-    std::ranges::sort(ghosts);
-    const auto twice = std::ranges::unique(ghosts);
-    ghosts.erase(twice.begin(), twice.end());
-    auto bulk = std::make_unique<ThreadBulk>(
-        all.nodes, ranks, ghosts, std::vector<double>(blocks.x.size(), 0.0),
-        blocks.gdim);
-    auto given = bulk->bulk(blocks.x);
-    halo = std::make_shared<mesh::Halo>(std::move(given), std::move(bulk));
+    halo = thread_halo(all.nodes, ranks, ghosts, blocks.x,
+                       std::vector<double>(blocks.x.size(), 0.0), blocks.gdim);
     for (const std::int32_t node : mine)
       cells.push_back(here(node));
     bodies = std::make_shared<mesh::Bodies>(
@@ -238,7 +232,7 @@ private:
   const DistributedBlocks& _all;
 };
 
-/// @brief What some work throws on all ranks; empty if nothing.
+/// @brief What some work on blocks throws on all ranks; empty if nothing.
 /// @param[in] blocks The mesh.
 /// @param[in] num_ranks Number of ranks.
 /// @param[in] work Called as work(rank_blocks) by each rank.
@@ -248,24 +242,7 @@ std::string said(const Blocks& blocks, int num_ranks, Work work,
                  bool is_scattered = false)
 {
   const DistributedBlocks all(blocks, num_ranks, is_scattered);
-  std::vector<std::string> texts(num_ranks);
-  on_ranks(num_ranks,
-           [&](ThreadRanks& ranks)
-           {
-             const RankBlocks mine(all, ranks);
-             try
-             {
-               work(mine);
-             }
-             catch (const std::invalid_argument& error)
-             {
-               texts[ranks.rank()] = error.what();
-             }
-           });
-  for (const std::string& text : texts)
-    if (text != texts[0])
-      throw std::logic_error("one rank says " + texts[0] + ", another one "
-                             + text);
-  return texts[0];
+  return said_on(num_ranks,
+                 [&](ThreadRanks& ranks) { work(RankBlocks(all, ranks)); });
 }
 } // namespace contactx::tests

@@ -145,7 +145,7 @@ struct SampledCells
   /// @brief Smallest det F of a cell at points n to an edge.
   double sampled(int cell, int n) const
   {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     const int layers = C::gdim == 3 ? n : 1;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)

@@ -10,8 +10,8 @@
 namespace contactx::tests
 {
 /// @brief The facets that typed tests run on.
-using FacetTypes = ::testing::Types<geometry::Segment, geometry::Triangle,
-                                    geometry::Quadrilateral>;
+using FacetTypes = testing::Types<geometry::Segment, geometry::Triangle,
+                                  geometry::Quadrilateral>;
 
 /// @brief A random convex facet in the plane of the first two axes (on the
 /// first axis in 2D), about one in size.

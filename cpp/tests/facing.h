@@ -93,13 +93,8 @@ struct Facing
   template <class Map>
   void move(Map&& map)
   {
-    for (std::size_t i = 0; i < x.size(); i += gdim)
-    {
-      Vector<3> p{};
-      std::copy_n(x.begin() + i, gdim, p.begin());
-      p = map(p);
-      std::copy_n(p.begin(), gdim, x.begin() + i);
-    }
+    for (std::size_t i = 0; i < x.size() / gdim; ++i)
+      std::copy_n(map(vector_at(x, i, gdim)).begin(), gdim, &x[gdim * i]);
   }
 
   search::FacetSearch search() const
@@ -138,12 +133,7 @@ struct Facing
     return integrals(pairs, x);
   }
 
-  Vector<3> point(std::int32_t node) const
-  {
-    Vector<3> p{};
-    std::copy_n(x.begin() + node * gdim, gdim, p.begin());
-    return p;
-  }
+  Vector<3> point(std::int32_t node) const { return vector_at(x, node, gdim); }
 };
 
 /// @brief Weight int Phi_s N_l of a pair.

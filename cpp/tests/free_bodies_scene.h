@@ -361,6 +361,14 @@ struct FreeScene
     return {bodies, bulk, contacts, std::span(number).first(map->num_owned())};
   }
 
+  /// @brief The same at the start of a step.
+  solve::FreeBodies begun() const
+  {
+    solve::FreeBodies free = free_bodies();
+    free.begin_step();
+    return free;
+  }
+
   /// @brief Forces on the nodes of the truss, loads of size one.
   solve::Forces loads(std::vector<double> load,
                       std::vector<double> of_bulk = {}) const

@@ -519,7 +519,7 @@ void for_all_samples(Function&& f)
     const auto all = samples(kind);
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      SCOPED_TRACE(::testing::Message() << kind << ", sample " << i);
+      SCOPED_TRACE(testing::Message() << kind << ", sample " << i);
       f(all[i]);
     }
   }

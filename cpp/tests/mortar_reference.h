@@ -138,9 +138,9 @@ struct Kinds
   using M = Master;
 };
 using FacetPairTypes
-    = ::testing::Types<Kinds<geometry::Segment, geometry::Segment>,
-                       Kinds<geometry::Triangle, geometry::Triangle>,
-                       Kinds<geometry::Triangle, geometry::Quadrilateral>,
-                       Kinds<geometry::Quadrilateral, geometry::Triangle>,
-                       Kinds<geometry::Quadrilateral, geometry::Quadrilateral>>;
+    = testing::Types<Kinds<geometry::Segment, geometry::Segment>,
+                     Kinds<geometry::Triangle, geometry::Triangle>,
+                     Kinds<geometry::Triangle, geometry::Quadrilateral>,
+                     Kinds<geometry::Quadrilateral, geometry::Triangle>,
+                     Kinds<geometry::Quadrilateral, geometry::Quadrilateral>>;
 } // namespace contactx::tests

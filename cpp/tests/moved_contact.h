@@ -6,6 +6,7 @@
 #include "two_sheets.h"
 #include <contactx/contact/contact.h>
 #include <contactx/contact/obstacle_pairs.h>
+#include <contactx/geometry/plane.h>
 
 namespace contactx::tests
 {
@@ -77,4 +78,17 @@ private:
         std::move(master), std::move(law), std::move(options));
   }
 };
+
+/// @brief A square of side 2 at a height of 0.1 above a plane.
+inline MovedContact square_above_plane()
+{
+  Scene slave(3);
+  for (const Vector<3>& p :
+       {Vector<3>{0, 0, 0.1}, {0, 2, 0.1}, {2, 0, 0.1}, {2, 2, 0.1}})
+    slave.node(p);
+  slave.facet({0, 1, 2, 3});
+  return MovedContact(
+      slave, std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
+                                               std::vector<double>{0, 0, 1}));
+}
 } // namespace contactx::tests

@@ -83,12 +83,11 @@ private:
   template <int D, class Function>
   static void each(std::vector<double>& values, Function f)
   {
+    Vector<D> v;
     for (std::size_t i = 0; i < values.size(); i += D)
     {
-      Vector<D> v;
       std::copy_n(values.begin() + i, D, v.begin());
-      v = f(v);
-      std::ranges::copy(v, values.begin() + i);
+      std::ranges::copy(f(v), values.begin() + i);
     }
   }
 };

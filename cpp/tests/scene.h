@@ -43,11 +43,18 @@ struct Scene
       facet({n.begin(), n.end()});
   }
 
-  Vector<3> point(std::int32_t i) const
+  Vector<3> point(std::int32_t i) const { return vector_at(x, i, gdim); }
+
+  /// @brief Add the nodes and facets of another surface.
+  void join(const Scene& other)
   {
-    Vector<3> p{};
-    std::copy_n(x.begin() + i * gdim, gdim, p.begin());
-    return p;
+    const auto first = static_cast<std::int32_t>(x.size()) / gdim;
+    x.insert(x.end(), other.x.begin(), other.x.end());
+    for (const std::int32_t node : other.nodes)
+      nodes.push_back(first + node);
+    const std::int32_t begin = offsets.back();
+    for (std::size_t f = 1; f < other.offsets.size(); ++f)
+      offsets.push_back(begin + other.offsets[f]);
   }
 
   geometry::FacetList facets() const { return {offsets, nodes}; }

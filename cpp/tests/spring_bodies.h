@@ -300,10 +300,7 @@ struct SpringBodies
   {
     if (friction == 0)
       return std::make_shared<law::Frictionless>();
-    auto coulomb = std::make_shared<law::Coulomb>();
-    coulomb->set_friction(
-        std::vector<double>(scene.slaves->owned().size(), friction));
-    return coulomb;
+    return coulomb(scene.slaves->owned().size(), friction);
   }
 
   /// @brief Press the slave down by a dome, and aside.

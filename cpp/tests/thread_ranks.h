@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "expect.h"
 #include <algorithm>
 #include <condition_variable>
 #include <contactx/mesh/ranks.h>
@@ -164,6 +165,23 @@ void on_ranks(int size, Work work)
           if (last or std::string(e.what()) != "another rank has left")
             throw;
         }
+}
+
+/// @brief What some work throws on all ranks; empty if nothing.
+/// @param[in] size Number of ranks.
+/// @param[in] work Called as work(ranks) by each.
+/// @throws std::logic_error if ranks do not throw the same.
+template <class Work>
+std::string said_on(int size, Work work)
+{
+  std::vector<std::string> texts(size);
+  on_ranks(size, [&](ThreadRanks& ranks)
+           { texts[ranks.rank()] = refusal([&] { work(ranks); }); });
+  for (const std::string& text : texts)
+    if (text != texts[0])
+      throw std::logic_error("one rank says " + texts[0] + ", another one "
+                             + text);
+  return texts[0];
 }
 
 /// @brief Nodes of a rank, by the numbers that all ranks know.

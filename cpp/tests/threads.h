@@ -168,6 +168,24 @@ private:
   std::vector<std::int32_t> _here; // nodes of the mesh by their number here
 };
 
+/// @brief Nodes of a rank.
+/// @param[in] nodes All nodes.
+/// @param[in] ranks This rank.
+/// @param[in] ghosts Nodes of other ranks that the bulk has, each maybe often.
+/// @param[in] x Positions of all nodes of the mesh.
+/// @param[in] displacement Of all nodes of the mesh.
+inline std::shared_ptr<mesh::Halo>
+thread_halo(const Distribution& nodes, ThreadRanks& ranks,
+            std::span<const std::int32_t> ghosts, std::span<const double> x,
+            std::vector<double> displacement, int gdim)
+{
+  auto bulk = std::make_unique<ThreadBulk>(nodes, ranks,
+                                           search::sorted_unique(ghosts),
+                                           std::move(displacement), gdim);
+  auto given = bulk->bulk(x);
+  return std::make_shared<mesh::Halo>(std::move(given), std::move(bulk));
+}
+
 /// @brief Facets of which each rank has some, and the nodes they need.
 class DistributedScene
 {
@@ -208,13 +226,8 @@ public:
         for (const std::int32_t node : scene.facets()[f])
           if (nodes.owner[node] != ranks.rank())
             ghosts.push_back(node);
-    std::ranges::sort(ghosts);
-    const auto twice = std::ranges::unique(ghosts);
-    ghosts.erase(twice.begin(), twice.end());
-    auto bulk = std::make_unique<ThreadBulk>(
-        nodes, ranks, ghosts, std::move(displacement), scene.gdim);
-    auto given = bulk->bulk(scene.x);
-    return std::make_shared<mesh::Halo>(std::move(given), std::move(bulk));
+    return thread_halo(nodes, ranks, ghosts, scene.x, std::move(displacement),
+                       scene.gdim);
   }
 
   /// @brief Facets of a rank, of those from one to another one.

@@ -50,13 +50,20 @@ struct TwoSheets
   {
     std::vector<double> y = x;
     for (std::int32_t i = 0; i < num_nodes(); ++i)
-    {
-      Vector<3> p{};
-      std::copy_n(x.begin() + gdim * i, gdim, p.begin());
-      p = way(p, i < num_slaves);
-      std::copy_n(p.begin(), gdim, y.begin() + gdim * i);
-    }
+      std::copy_n(way(vector_at(x, i, gdim), i < num_slaves).begin(), gdim,
+                  &y[gdim * i]);
     return y;
+  }
+
+  /// @brief Positions after the slave has gone along the first axis.
+  std::vector<double> aside(double by) const
+  {
+    return moved(
+        [by](Vector<3> p, bool is_slave)
+        {
+          p[0] += is_slave ? by : 0.0;
+          return p;
+        });
   }
 
   /// @brief Displacements that lead to some positions.

@@ -131,22 +131,17 @@ TEST(CoupledRows, WhatDoesNotFitIsRefused)
   const std::size_t n = contact.size(), num_local = scene.u->size();
   std::vector<std::int64_t> places(n), offsets(num_local + 1, 0);
   std::iota(places.begin(), places.end(), 0);
-  EXPECT_NO_THROW(
-      coupled(offsets, {}, {}, contact, places, num_local, num_local));
+  const auto call = [&](std::size_t num_owned, std::size_t local)
+  { coupled(offsets, {}, {}, contact, places, num_owned, local); };
+  EXPECT_NO_THROW(call(num_local, num_local));
+  EXPECT_THROW(call(num_local, num_local - 1), std::invalid_argument);
+  EXPECT_THROW(call(num_local + 1, num_local + 1), std::invalid_argument);
+  EXPECT_THROW(call(num_local, n + 1), std::invalid_argument);
   EXPECT_THROW(coupled({}, {}, {}, contact, places, num_local, num_local),
-               std::invalid_argument);
-  EXPECT_THROW(
-      coupled(offsets, {}, {}, contact, places, num_local, num_local - 1),
-      std::invalid_argument);
-  EXPECT_THROW(
-      coupled(offsets, {}, {}, contact, places, num_local + 1, num_local + 1),
-      std::invalid_argument);
-  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, num_local, n + 1),
                std::invalid_argument);
   const std::vector<double> one(1, 0.0);
   EXPECT_THROW(coupled(offsets, {}, one, contact, places, num_local, num_local),
                std::invalid_argument);
   places.pop_back();
-  EXPECT_THROW(coupled(offsets, {}, {}, contact, places, num_local, num_local),
-               std::invalid_argument);
+  EXPECT_THROW(call(num_local, num_local), std::invalid_argument);
 }

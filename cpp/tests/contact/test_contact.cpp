@@ -13,20 +13,11 @@ using namespace contactx::tests;
 namespace
 {
 /// What is asked of contacts of either method.
-template <class M>
-class Contacts : public testing::Test
-{
-};
+template <class>
+using Contacts = testing::Test;
 
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(Contacts, Methods);
-
-std::shared_ptr<law::Coulomb> coulomb(std::size_t n, double friction)
-{
-  auto law = std::make_shared<law::Coulomb>();
-  law->set_friction(std::vector<double>(n, friction));
-  return law;
-}
 
 /// A random state in the middle of a step.
 void spoil(ContactScene& scene, Contact& contact, std::mt19937& random)
@@ -165,16 +156,10 @@ TYPED_TEST(Contacts, ForcesAndMomentsOfItsPairsSumToZero)
     Vector<3> sum{}, moment{};
     for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
     {
-      Vector<3> p{}, f{};
-      std::copy_n(x.begin() + dim * i, dim, p.begin());
-      std::copy_n(b.begin() + dim * i, dim, f.begin());
-      for (int k = 0; k < 3; ++k)
-      {
-        largest = std::max(largest, std::abs(f[k]));
-        sum[k] += f[k];
-        moment[k] += p[(k + 1) % 3] * f[(k + 2) % 3]
-                     - p[(k + 2) % 3] * f[(k + 1) % 3];
-      }
+      const Vector<3> f = vector_at(b, i, dim);
+      largest = std::max(largest, norm(f));
+      sum = sum + f;
+      moment = moment + cross(vector_at(x, i, dim), f);
     }
     ASSERT_GT(largest, 0.01);
     for (int k = 0; k < 3; ++k)
@@ -211,8 +196,7 @@ TYPED_TEST(Contacts, GapsAreHeightsLessWhatIsTakenOff)
     };
     expect(0.05);
     // The slave comes down
-    for (std::int32_t i = 0; i < n; ++i)
-      (*scene.u)[dim * i + dim - 1] = -0.02;
+    scene.put_slave(0, -0.02);
     expect(0.03);
     contact->set_offset(std::vector<double>(n, 0.01));
     expect(0.02);
@@ -233,7 +217,7 @@ TYPED_TEST(Contacts, AdjustedGapsCountAsNone)
     for (const Sliding sliding : {Sliding::finite, Sliding::small})
     {
       // Slave nodes are 0.05 above the master
-      const ContactScene scene(dim);
+      ContactScene scene(dim);
       const auto contact = [&](std::shared_ptr<law::Law> law, double adjust)
       {
         return scene.template contact<TypeParam>(std::move(law), sliding, {},
@@ -259,8 +243,7 @@ TYPED_TEST(Contacts, AdjustedGapsCountAsNone)
         one->set_offset(std::vector<double>(n, 0.01));
         expect(0.04 - taken);
         // What the bodies move by is a gap
-        for (std::int32_t i = 0; i < n; ++i)
-          (*scene.u)[dim * i + dim - 1] = 0.02;
+        scene.put_slave(0, 0.02);
         expect(0.06 - taken);
         std::ranges::fill(*scene.u, 0);
       }
@@ -363,11 +346,7 @@ TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
     ContactScene scene(dim, 0.1);
     const auto contact = started<TypeParam>(scene);
     // Down by twice the gap, aside by 0.04: it touches on half the way
-    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
-    {
-      (*scene.u)[dim * i] = 0.04;
-      (*scene.u)[dim * i + dim - 1] = -0.2;
-    }
+    scene.put_slave(0.04, -0.2);
     contact->search();
     contact->update_gap();
     for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
@@ -379,8 +358,7 @@ TYPED_TEST(Contacts, SlipIsMeasuredFromWhereANodeTouches)
     contact->update_gap();
     EXPECT_NEAR(contact->nodes()->slip[0], 0.02, 1e-13);
     // It opens and closes once more: what counts is where it first touched
-    for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
-      (*scene.u)[dim * i] = 0.08;
+    scene.put_slave(0.08, -0.2);
     std::ranges::fill(contact->nodes()->status, law::open);
     contact->update_gap();
     EXPECT_EQ(contact->update_status(false), scene.sheets.num_slaves);
@@ -398,11 +376,7 @@ TYPED_TEST(Contacts, WhatClosesAfterTheFirstIterateSlipsFromTheStart)
     // The first iterate comes half as near, the second one through
     for (const auto& [aside, down] : {std::pair{0.04, 0.05}, {0.08, 0.2}})
     {
-      for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
-      {
-        (*scene.u)[dim * i] = aside;
-        (*scene.u)[dim * i + dim - 1] = -down;
-      }
+      scene.put_slave(aside, -down);
       contact->search();
       contact->update_gap();
       EXPECT_EQ(contact->update_status(false),
@@ -421,8 +395,7 @@ TYPED_TEST(Contacts, WhatTouchesButForRoundingClosesAtTheStart)
       ContactScene scene(dim, 0.0);
       const auto contact = scene.template contact<TypeParam>(
           std::make_shared<law::Frictionless>());
-      for (std::int32_t i = 0; i < scene.sheets.num_slaves; ++i)
-        (*scene.u)[dim * i + dim - 1] = gap;
+      scene.put_slave(0, gap);
       contact->begin_step();
       contact->search();
       contact->update_gap();
@@ -450,12 +423,9 @@ TYPED_TEST(Contacts, WhereNothingPressesYetNodesStick)
         law::NodeState& nodes = *contact->nodes();
         std::ranges::fill(nodes.c, 1.0);
         // Aside by more than friction takes
+        scene.put_slave(0.02, -0.01);
         for (std::int32_t i = 0; i < n; ++i)
-        {
-          (*scene.u)[dim * i] = 0.02;
-          (*scene.u)[dim * i + dim - 1] = -0.01;
           nodes.multiplier[dim * i + dim - 1] = pressure;
-        }
         contact->search();
         contact->update_gap();
         contact->update_status(is_first);
@@ -484,8 +454,7 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
       scene.master<NodeToSurface>(*law, Sliding::finite), law,
       {Sliding::finite, contact::Method::node_to_surface, prescribed, {}});
   const double aside = -0.34 / 3;
-  for (std::int32_t i = 0; i < n; ++i)
-    (*scene.u)[2 * i] = aside;
+  scene.put_slave(aside, 0);
   contact.search();
   contact.accept();
   contact.begin_step();
@@ -614,9 +583,7 @@ TEST(Contact, TractionsTurnWithTheMaster)
     }
     contact->accept();
     const double angle = 0.3;
-    const std::vector<double> x = scene.sheets.turned(angle);
-    for (std::size_t k = 0; k < x.size(); ++k)
-      (*scene.u)[k] = x[k] - scene.sheets.x[k];
+    *scene.u = scene.sheets.moved_by(scene.sheets.turned(angle));
     contact->begin_step();
     for (std::int32_t i = 0; i < n; ++i)
     {

@@ -1,12 +1,16 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "two_sheets.h"
+#include <cmath>
 #include <contactx/contact/mobility.h>
+#include <contactx/contact/slip_weights.h>
 #include <contactx/kernel/layout.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -15,10 +19,8 @@ using namespace contactx::tests;
 namespace
 {
 /// What is asked of pairs of either method.
-template <class M>
-class DeformableMasters : public testing::Test
-{
-};
+template <class>
+using DeformableMasters = testing::Test;
 
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(DeformableMasters, Methods);
@@ -39,7 +41,6 @@ std::vector<double> movement(const kernel::Weights& weights, std::size_t n,
           += weights.values[e] * u[std::size_t(weights.nodes[e]) * gdim + k];
   return moved;
 }
-} // namespace
 
 TYPED_TEST(DeformableMasters, AllThatIsInFrontIsPaired)
 {
@@ -131,12 +132,7 @@ TYPED_TEST(DeformableMasters, WhatIsSavedComesBack)
 {
   TwoSheets sheets(3, 0.01);
   const auto pairs = sheets.template pairs<TypeParam>();
-  const auto moved = sheets.moved(
-      [](Vector<3> p, bool is_slave)
-      {
-        p[0] += is_slave ? 0.07 : 0.0;
-        return p;
-      });
+  const auto moved = sheets.aside(0.07);
   pairs->search(moved, std::vector<std::int8_t>(sheets.num_slaves, 0));
   sheets.halo->set_start(sheets.moved_by(moved));
   pairs->begin_step();
@@ -155,34 +151,26 @@ TYPED_TEST(DeformableMasters, WhatIsSavedComesBack)
   EXPECT_THROW(other->load({}), std::invalid_argument);
 }
 
-TYPED_TEST(DeformableMasters, ReachMustBePositive)
-{
-  TwoSheets sheets(2);
-  auto halo = mesh::serial_halo(sheets.x, 2);
-  const auto& [offsets, nodes] = sheets.master;
-  auto surface = search::make_master_surface(halo, offsets, nodes);
-  auto outside = std::make_shared<search::InsideTest>(halo, offsets, nodes);
-  auto slaves = std::make_shared<SlaveNodes>(halo, sheets.slave.list(),
-                                             sheets.slave.list());
-  for (double reach : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(TypeParam(halo, slaves, surface, outside,
-                           PairingOptions{reach, false, false}),
-                 std::invalid_argument);
-}
-
-TYPED_TEST(DeformableMasters, SlaveFacetsMustBeOfTheDimension)
+TYPED_TEST(DeformableMasters, ReachMustBePositiveAndSlavesOfTheDimension)
 {
   const TwoSheets sheets(3), line(2);
   auto halo = mesh::serial_halo(sheets.x, 3);
   const auto& [offsets, nodes] = sheets.master;
   auto surface = search::make_master_surface(halo, offsets, nodes);
   auto outside = std::make_shared<search::InsideTest>(halo, offsets, nodes);
-  const auto segments = std::make_shared<SlaveNodes>(halo, line.slave.list(),
-                                                     line.slave.list());
-  for (const auto& slaves : {segments, std::shared_ptr<SlaveNodes>()})
-    EXPECT_THROW(TypeParam(halo, slaves, surface, outside,
-                           PairingOptions{1.0, false, false}),
-                 std::invalid_argument);
+  const auto slaves_of = [&](const geometry::Facets& facets)
+  { return std::make_shared<SlaveNodes>(halo, facets.list(), facets.list()); };
+  const auto make = [&](std::shared_ptr<SlaveNodes> slaves, double reach)
+  {
+    TypeParam(halo, slaves, surface, outside,
+              PairingOptions{reach, false, false});
+  };
+  EXPECT_NO_THROW(make(slaves_of(sheets.slave), 1));
+  for (double reach : {0.0, -1.0, std::nan("")})
+    EXPECT_THROW(make(slaves_of(sheets.slave), reach), std::invalid_argument);
+  for (const auto& slaves :
+       {slaves_of(line.slave), std::shared_ptr<SlaveNodes>()})
+    EXPECT_THROW(make(slaves, 1), std::invalid_argument);
 }
 
 TEST(NodeToSurface, ANodeThatFallsAsideSlipsFromWhereItTouches)
@@ -246,14 +234,9 @@ TEST(NodeTie, TheOffsetMakesItLonger)
       EXPECT_NEAR(slip.origin[0], 0, 1e-12);
     }
   // Only the first search counts
-  const auto aside = sheets.moved(
-      [](Vector<3> p, bool is_slave)
-      {
-        p[0] += is_slave ? 0.5 : 0.0;
-        return p;
-      });
   const auto before = tie->pairs();
-  EXPECT_EQ(tie->search(aside, std::vector<std::int8_t>(sheets.num_slaves, 0)),
+  EXPECT_EQ(tie->search(sheets.aside(0.5),
+                        std::vector<std::int8_t>(sheets.num_slaves, 0)),
             0);
   EXPECT_TRUE(tie->pairs()[0].same(before[0]));
 }
@@ -269,16 +252,9 @@ TEST(SurfaceToSurface, TheAreaIsWhatTheMasterCovers)
         = geometry::nodal_areas(sheets.slave.list(), sheets.x, gdim);
     const std::vector<double> all(whole.begin(),
                                   whole.begin() + sheets.num_slaves);
-    const auto covered = pairs->area(all);
-    for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
-      EXPECT_NEAR(covered[i], all[i], 1e-12);
-    const auto beyond = sheets.moved(
-        [](Vector<3> p, bool is_slave)
-        {
-          p[0] += is_slave ? 1.5 : 0.0;
-          return p;
-        });
-    pairs->search(beyond, std::vector<std::int8_t>(sheets.num_slaves, 0));
+    expect_near(pairs->area(all), all, 1e-12);
+    pairs->search(sheets.aside(1.5),
+                  std::vector<std::int8_t>(sheets.num_slaves, 0));
     double sum = 0;
     const auto paired = pairs->paired();
     const auto area = pairs->area(all);
@@ -300,13 +276,8 @@ TEST(SurfaceToSurface, SlipIsMeasuredWithTheWeightsOfTheStart)
   };
   EXPECT_GT(count(pairs->pairs()), 0);
   const auto start = pairs->pairs().back();
-  const auto moved = sheets.moved(
-      [](Vector<3> p, bool is_slave)
-      {
-        p[0] += is_slave ? 0.3 : 0.0;
-        return p;
-      });
-  pairs->search(moved, std::vector<std::int8_t>(sheets.num_slaves, 0));
+  pairs->search(sheets.aside(0.3),
+                std::vector<std::int8_t>(sheets.num_slaves, 0));
   EXPECT_TRUE(pairs->pairs().back().same(start));
   const auto other = sheets.pairs<SurfaceToSurface>(false, false);
   EXPECT_EQ(count(other->pairs()), 0);
@@ -349,3 +320,143 @@ TEST(FreeSquares, PartsWithTheSameNodeAddUpFirst)
   // Of what nothing is prescribed
   EXPECT_EQ(squares[2], 1);
 }
+
+/// A slave node with made-up weights over some facets of a master in a frame.
+struct Weighted
+{
+  TwoSheets sheets;
+  SlaveNodes slaves;
+  MortarSides sides;
+  Mortar mortar;
+  std::vector<double> x;
+
+  explicit Weighted(int gdim, double angle)
+      : sheets(gdim, 0.1), slaves(mesh::serial_halo(sheets.x, gdim),
+                                  sheets.slave.list(), sheets.slave.list()),
+        sides(slaves, sheets.x, gdim), x(sheets.turned(angle))
+  {
+    sides.set_master_facets(sheets.master.list(), {});
+    const std::size_t w = mortar.width = sides.width();
+    mortar.slave = {0, 0, 0};
+    mortar.master = {0, 1, 3};
+    mortar.gap.assign(3 * w, 0);
+    mortar.weight.assign(3 * w * w, 0);
+    double total = 0;
+    for (std::size_t p = 0; p < 3; ++p)
+      for (int l = 0; l < gdim; ++l)
+        total += at(p, l) = l == 0 and p == 2 ? -0.1 : 0.1 + 0.1 * p + 0.2 * l;
+    for (double& value : mortar.weight)
+      value /= total;
+  }
+
+  double& at(std::size_t p, int l)
+  {
+    return mortar.weight[p * mortar.width * mortar.width + l];
+  }
+
+  /// Normals of all slave nodes.
+  std::vector<double> normals(double angle) const
+  {
+    std::vector<double> n(3 * sides.size(), 0);
+    for (std::size_t i = 0; i < sides.size(); ++i)
+    {
+      n[3 * i] = -std::sin(angle);
+      n[3 * i + sheets.gdim - 1] = std::cos(angle);
+    }
+    return n;
+  }
+
+  /// Slave node less the master's points.
+  std::vector<double> distances(const Mortar& m) const
+  {
+    const int g = sheets.gdim;
+    std::vector<double> d(g * sides.size(), 0);
+    const std::size_t i = sides.numbers(0)[0];
+    const std::int32_t node = sides.slaves()[i];
+    for (int k = 0; k < g; ++k)
+    {
+      d[g * i + k] = x[g * node + k];
+      for (std::size_t p = 0; p < m.size(); ++p)
+        for (int l = 0; l < m.width; ++l)
+          d[g * i + k]
+              -= m.row(p, 0)[l] * x[g * sides.master_nodes(m.master[p])[l] + k];
+    }
+    return d;
+  }
+};
+
+TEST(SlipWeights, PutMastersRightBeforeTheirNodeInAnyFrame)
+{
+  for (int gdim : {2, 3})
+    for (double angle : {0.0, 0.7, 1.5})
+    {
+      const Weighted w(gdim, angle);
+      const auto n = w.normals(angle);
+      const auto before = w.distances(w.mortar);
+      const Mortar found
+          = slip_weights(w.mortar, w.sides, before, n, w.x, gdim);
+      const auto after = w.distances(found);
+      const std::size_t i = w.sides.numbers(0)[0];
+      double along = 0, was = 0;
+      for (int k = 0; k < gdim; ++k)
+      {
+        along += n[3 * i + k] * after[gdim * i + k];
+        was += n[3 * i + k] * before[gdim * i + k];
+      }
+      double across = 0, offset = 0;
+      for (int k = 0; k < gdim; ++k)
+      {
+        across = std::max(across,
+                          std::abs(after[gdim * i + k] - along * n[3 * i + k]));
+        offset = std::max(offset,
+                          std::abs(before[gdim * i + k] - was * n[3 * i + k]));
+      }
+      EXPECT_GT(offset, 0.1);
+      EXPECT_LT(across, 1e-12);
+      EXPECT_NEAR(along, was, 1e-12); // masters are in a plane
+      const auto sum = [](const std::vector<double>& values)
+      { return std::accumulate(values.begin(), values.end(), 0.0); };
+      EXPECT_NEAR(sum(found.weight), 1, 1e-12);
+      // The same weights in any frame
+      const Weighted flat(gdim, 0);
+      const Mortar upright
+          = slip_weights(flat.mortar, flat.sides, flat.distances(flat.mortar),
+                         flat.normals(0), flat.x, gdim);
+      for (std::size_t e = 0; e < found.weight.size(); ++e)
+      {
+        EXPECT_NEAR(found.weight[e], upright.weight[e], 1e-12);
+        if (w.mortar.weight[e] == 0)
+        {
+          EXPECT_EQ(found.weight[e], 0);
+        }
+      }
+    }
+}
+
+TEST(SlipWeights, LeaveWhatIsRightBeforeTheirNode)
+{
+  for (int gdim : {2, 3})
+  {
+    const Weighted w(gdim, 0.7);
+    const std::vector<double> n = w.normals(0.7);
+    std::vector<double> d(gdim * w.sides.size(), 0);
+    for (std::size_t i = 0; i < w.sides.size(); ++i)
+      for (int k = 0; k < gdim; ++k)
+        d[gdim * i + k] = 0.3 * n[3 * i + k];
+    const Mortar found = slip_weights(w.mortar, w.sides, d, n, w.x, gdim);
+    expect_near(found.weight, w.mortar.weight, 1e-14);
+  }
+}
+
+TEST(SlipWeights, LeaveMastersInOneLineAlone)
+{
+  // Nothing is known across it
+  Weighted w(3, 0);
+  for (std::size_t p = 0; p < 3; ++p)
+    for (int l = 0; l < 3; ++l)
+      w.at(p, l) = p == 0 and l < 2 ? 0.5 : 0.0;
+  const Mortar found = slip_weights(w.mortar, w.sides, w.distances(w.mortar),
+                                    w.normals(0), w.x, 3);
+  EXPECT_EQ(found.weight, w.mortar.weight);
+}
+} // namespace

@@ -75,6 +75,31 @@ TEST(Touching, IsWhereAStraightWayHasNoGap)
   EXPECT_EQ(touching(-1, -2), 0);
 }
 
+/// Compare the derivative of the slip at strayed nodes with differences.
+void expect_derivative(ObstacleMaster& master, const FacingNodes& scene,
+                       bool frozen)
+{
+  const int g = scene.gdim;
+  const auto x = strayed(scene, 0.2);
+  const Given at = given(master, scene, x, frozen);
+  // Normals turn fast beside the centre
+  const double h = 1e-6, size = 1 + largest(at.derivative);
+  for (int k = 0; k < g; ++k)
+  {
+    auto up = x, down = x;
+    for (int i = 0; i < scene.n; ++i)
+    {
+      up[g * i + k] += h;
+      down[g * i + k] -= h;
+    }
+    const Given plus = given(master, scene, up, frozen),
+                minus = given(master, scene, down, frozen);
+    for (int i = 0; i < scene.n * g; ++i)
+      EXPECT_NEAR(at.derivative[g * i + k],
+                  (plus.slip[i] - minus.slip[i]) / (2 * h), 1e-7 * size * size);
+  }
+}
+
 TEST(ObstacleMaster, TheDerivativeIsThatOfTheSlip)
 {
   for (int gdim : {2, 3})
@@ -84,26 +109,7 @@ TEST(ObstacleMaster, TheDerivativeIsThatOfTheSlip)
         SCOPED_TRACE(testing::Message() << gdim << " " << int(kind));
         const auto o = make_obstacle(kind, gdim);
         const FacingNodes scene(*o, gdim);
-        const auto master = make(scene, o);
-        const auto x = strayed(scene, 0.2);
-        const Given at = given(*master, scene, x, frozen);
-        // Normals turn fast beside the centre
-        const double h = 1e-6, size = 1 + largest(at.derivative);
-        for (int k = 0; k < gdim; ++k)
-        {
-          auto up = x, down = x;
-          for (int i = 0; i < scene.n; ++i)
-          {
-            up[gdim * i + k] += h;
-            down[gdim * i + k] -= h;
-          }
-          const Given plus = given(*master, scene, up, frozen),
-                      minus = given(*master, scene, down, frozen);
-          for (int i = 0; i < scene.n * gdim; ++i)
-            EXPECT_NEAR(at.derivative[gdim * i + k],
-                        (plus.slip[i] - minus.slip[i]) / (2 * h),
-                        1e-7 * size * size);
-        }
+        expect_derivative(*make(scene, o), scene, frozen);
       }
 }
 
@@ -166,7 +172,7 @@ TEST(ObstacleMaster, TheNextStepStartsWhereTheLastOneEnded)
 struct Moving
 {
   std::shared_ptr<geometry::Obstacle> o;
-  std::function<void()> move;
+  std::function<void(bool)> place; ///< at its end, or at its start
   geometry::Placement from, to;
 
   Moving(Kind kind, int gdim)
@@ -181,31 +187,30 @@ struct Moving
     if (kind == Kind::plane)
     {
       auto plane = std::make_shared<geometry::Plane>(start, a);
-      move = [=] { plane->place(end, b); };
+      place = [=](bool is_end)
+      { plane->place(is_end ? end : start, is_end ? b : a); };
       o = plane;
     }
     else if (kind == Kind::sphere)
     {
       auto sphere = std::make_shared<geometry::Sphere>(start, 0.8);
-      move = [=] { sphere->place(end, 0.8); };
+      place = [=](bool is_end) { sphere->place(is_end ? end : start, 0.8); };
       o = sphere;
     }
     else
     {
       auto cylinder = std::make_shared<geometry::Cylinder>(start, a, 0.8);
-      move = [=] { cylinder->place(end, b, 0.8); };
+      place = [=](bool is_end)
+      { cylinder->place(is_end ? end : start, is_end ? b : a, 0.8); };
       o = cylinder;
     }
     from = o->placement(gdim);
     move();
     to = o->placement(gdim);
-    if (kind == Kind::plane)
-      std::static_pointer_cast<geometry::Plane>(o)->place(start, a);
-    else if (kind == Kind::sphere)
-      std::static_pointer_cast<geometry::Sphere>(o)->place(start, 0.8);
-    else
-      std::static_pointer_cast<geometry::Cylinder>(o)->place(start, a, 0.8);
+    place(false);
   }
+
+  void move() const { place(true); }
 
   std::vector<double> carried(const FacingNodes& scene) const
   {
@@ -258,24 +263,7 @@ TEST(ObstacleMaster, TheDerivativeHoldsOnAnObstacleThatMoves)
     const FacingNodes scene(*moving.o, gdim);
     const auto master = make(scene, moving.o);
     moving.move();
-    const auto x = strayed(scene, 0.2);
-    const Given at = given(*master, scene, x);
-    const double h = 1e-6, size = 1 + largest(at.derivative);
-    for (int k = 0; k < gdim; ++k)
-    {
-      auto up = x, down = x;
-      for (int i = 0; i < scene.n; ++i)
-      {
-        up[gdim * i + k] += h;
-        down[gdim * i + k] -= h;
-      }
-      const Given plus = given(*master, scene, up),
-                  minus = given(*master, scene, down);
-      for (int i = 0; i < scene.n * gdim; ++i)
-        EXPECT_NEAR(at.derivative[gdim * i + k],
-                    (plus.slip[i] - minus.slip[i]) / (2 * h),
-                    1e-7 * size * size);
-    }
+    expect_derivative(*master, scene, false);
   }
 }
 

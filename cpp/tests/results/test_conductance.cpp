@@ -8,8 +8,10 @@
 #include <cmath>
 #include <contactx/geometry/plane.h>
 #include <contactx/results/conductance.h>
+#include <contactx/results/transfer.h>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <optional>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -54,19 +56,10 @@ void press(Contact& contact)
 template <class M>
 std::shared_ptr<Contact> uneven(ContactScene& scene, bool has_friction)
 {
-  const int g = scene.sheets.gdim;
-  for (std::size_t i = 0; i < scene.mesh.number.size(); ++i)
-    for (int k = 0; k < g; ++k)
-      (*scene.u)[g * i + k]
-          = 0.01 * std::sin(3. * double(scene.mesh.number[i]) + k);
+  scene.make_uneven();
   std::shared_ptr<law::Law> law = std::make_shared<law::Frictionless>();
   if (has_friction)
-  {
-    auto coulomb = std::make_shared<law::Coulomb>();
-    coulomb->set_friction(
-        std::vector<double>(scene.slaves->owned().size(), 0.4));
-    law = std::move(coulomb);
-  }
+    law = coulomb(scene.slaves->owned().size(), 0.4);
   auto contact = scene.contact<M>(law, Sliding::small);
   press(*contact);
   return contact;
@@ -106,14 +99,14 @@ void expect_product(const Triplets& A, const std::vector<double>& way,
   for (const double v : expected)
     most = std::max(most, std::abs(v));
   ASSERT_GT(most, 0.01);
-  for (std::size_t i = 0; i < product.size(); ++i)
-    EXPECT_NEAR(product[i], expected[i], 1e-7 * most);
+  expect_near(product, expected, 1e-7 * most);
 }
 
-std::vector<double> any(std::size_t count, unsigned seed)
+std::vector<double> any(std::size_t count, unsigned seed, double low = -1,
+                        double high = 1)
 {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> one(-1, 1);
+  std::uniform_real_distribution<double> one(low, high);
   std::vector<double> values(count);
   for (double& v : values)
     v = one(random);
@@ -126,10 +119,8 @@ void add(std::vector<double>& x, const std::vector<double>& way, double by)
     x[i] += by * way[i];
 }
 
-template <class M>
-class Conductances : public testing::Test
-{
-};
+template <class>
+using Conductances = testing::Test;
 
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(Conductances, Methods);
@@ -278,14 +269,7 @@ TYPED_TEST(Conductances, AreTheSameOnRanks)
 /// A body over a plate: h A (T - T0) flows.
 TEST(Conductance, ARigidObstacleHasAValue)
 {
-  Scene slave(3);
-  for (const Vector<3>& p : {Vector<3>{0, 0, 0.1}, Vector<3>{0, 2, 0.1},
-                             Vector<3>{2, 0, 0.1}, Vector<3>{2, 2, 0.1}})
-    slave.node(p);
-  slave.facet({0, 1, 2, 3});
-  MovedContact moved(
-      slave, std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
-                                               std::vector<double>{0, 0, 1}));
+  MovedContact moved = square_above_plane();
   press(*moved.contact);
   Conductance conductance = conducting(moved.contact, Coefficient(0.5), 3);
   const std::vector<double> field(4, 10);
@@ -315,5 +299,138 @@ TEST(Conductance, RefusesWhatDoesNotFit)
       contact,
       Coefficient([](auto p, auto) { return std::vector(p.size(), -1.); }));
   EXPECT_THROW((void)bad.by_field(), std::invalid_argument);
+}
+
+template <class>
+using Transfers = testing::Test;
+TYPED_TEST_SUITE(Transfers, Methods);
+
+/// What goes from slave to master of two sheets that are shaken.
+template <class M>
+struct Shaken : ContactScene
+{
+  explicit Shaken(int dim)
+      : ContactScene(dim),
+        between(contact<M>(std::make_shared<law::Frictionless>()))
+  {
+    std::mt19937 random(7);
+    shake(random, 0.005);
+    between->search();
+    between->update_gap();
+    transfer.emplace(*between);
+  }
+
+  std::shared_ptr<Contact> between;
+  std::optional<results::Transfer> transfer;
+};
+
+TYPED_TEST(Transfers, NothingIsLostAndUniformFieldsHaveNoDifference)
+{
+  for (const int dim : {2, 3})
+  {
+    const Shaken<TypeParam> scene(dim);
+    const results::Transfer& transfer = *scene.transfer;
+    EXPECT_GT(std::ranges::count(transfer.is_paired(), 1), 3);
+    const std::size_t nodes = scene.halo->num_nodes();
+    for (const double d : transfer.differences(std::vector<double>(nodes, 3)))
+      EXPECT_NEAR(d, 0, 1e-13);
+    std::vector<double> b(nodes, 0);
+    transfer.add(any(transfer.area().size(), 1, 0.5, 1.5), b);
+    double sum = 0, size = 0;
+    for (const double v : b)
+    {
+      sum += v;
+      size += std::abs(v);
+    }
+    EXPECT_GT(size, 1);
+    EXPECT_NEAR(sum, 0, 1e-13 * size);
+  }
+}
+
+/// Derivatives against what flows.
+TYPED_TEST(Transfers, MatricesAreTheDerivatives)
+{
+  for (const int dim : {2, 3})
+  {
+    const Shaken<TypeParam> scene(dim);
+    const results::Transfer& transfer = *scene.transfer;
+    const std::size_t n = transfer.area().size();
+    const std::size_t nodes = scene.halo->num_nodes();
+    const auto h = any(n, 2, 0.5, 1.5), field = any(nodes, 3, 0.5, 1.5);
+    std::vector<double> flow = transfer.differences(field);
+    for (std::size_t i = 0; i < n; ++i)
+      flow[i] *= h[i] * transfer.area()[i];
+    std::vector<double> b(nodes, 0), product(nodes, 0);
+    transfer.add(flow, b);
+    transfer.by_field(h).multiply(field, product);
+    expect_near(product, b, 1e-13);
+    std::ranges::fill(product, 0);
+    transfer.by_slaves(h).multiply(flow, product);
+    std::ranges::fill(b, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      flow[i] *= h[i];
+    transfer.add(flow, b);
+    expect_near(product, b, 1e-13);
+    // By a displacement: what the gaps change by, with the normals as they are
+    const auto u = any(nodes * dim, 4, 0.5, 1.5);
+    const std::vector<double> normals = scene.between->master()->normals();
+    std::vector<double> opening(n, 0), part(nodes);
+    for (int k = 0; k < dim; ++k)
+    {
+      for (std::size_t j = 0; j < nodes; ++j)
+        part[j] = u[dim * j + k];
+      const auto d = transfer.differences(part);
+      for (std::size_t i = 0; i < n; ++i)
+        opening[i] += normals[3 * i + k] * d[i];
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      opening[i] *= h[i];
+    std::ranges::fill(b, 0);
+    transfer.add(opening, b);
+    std::ranges::fill(product, 0);
+    transfer.by_displacement(h).multiply(u, product);
+    expect_near(product, b, 1e-12);
+  }
+}
+
+TYPED_TEST(Transfers, MasterHasMeansOfWhatIsInFrontOfIt)
+{
+  for (const int dim : {2, 3})
+  {
+    const Shaken<TypeParam> scene(dim);
+    const results::Transfer& transfer = *scene.transfer;
+    const std::vector<double> uniform(transfer.area().size(), 2);
+    const auto values = any(transfer.area().size(), 5, 0.5, 1.5);
+    const auto same = transfer.at_master(uniform);
+    const auto means = transfer.at_master(values);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < means.size(); ++k)
+    {
+      EXPECT_EQ(std::isnan(means[k]), std::isnan(same[k]));
+      if (std::isnan(means[k]))
+        continue;
+      ++count;
+      EXPECT_NEAR(same[k], 2, 1e-13);
+      EXPECT_GE(means[k], 0.5);
+      EXPECT_LE(means[k], 1.5);
+    }
+    EXPECT_GT(count, 2);
+    for (const std::int32_t node : scene.slaves->owned())
+      EXPECT_TRUE(std::isnan(means[node]));
+  }
+}
+
+TYPED_TEST(Transfers, SizesAreChecked)
+{
+  const Shaken<TypeParam> scene(2);
+  const results::Transfer& transfer = *scene.transfer;
+  const std::vector<double> none;
+  std::vector<double> b(scene.halo->num_nodes());
+  EXPECT_THROW((void)transfer.differences(none), std::invalid_argument);
+  EXPECT_THROW(transfer.add(none, b), std::invalid_argument);
+  EXPECT_THROW((void)transfer.by_field(none), std::invalid_argument);
+  EXPECT_THROW((void)transfer.by_slaves(none), std::invalid_argument);
+  EXPECT_THROW((void)transfer.by_displacement(none), std::invalid_argument);
+  EXPECT_THROW((void)transfer.at_master(none), std::invalid_argument);
 }
 } // namespace

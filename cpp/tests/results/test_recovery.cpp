@@ -1,7 +1,6 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "slave_parts.h"
 #include "slave_sheet.h"
 #include <contactx/results/recovery.h>
 #include <gtest/gtest.h>
@@ -78,22 +77,26 @@ struct State
 
   Vector<3> vector(const Values& values, std::size_t i) const
   {
-    Vector<3> v{};
-    std::copy_n(values.begin() + i * gdim(), gdim(), v.begin());
-    return v;
+    return vector_at(values, i, gdim());
+  }
+
+  /// Tractions of pressures and of what is along the surface.
+  Values pressed(const Values& p, Values t) const
+  {
+    for (std::size_t i = 0; i < t.size(); ++i)
+      t[i] += p[i / gdim()] * normal[i];
+    return t;
+  }
+
+  results::Recovered recovered(const Values& lambda) const
+  {
+    return recovery().tractions(lambda, normal, area, closed);
   }
 };
 
 double product(const Values& a, const Values& b)
 {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-void expect_near(const Values& a, const Values& b, double tolerance)
-{
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    EXPECT_NEAR(a[i], b[i], tolerance) << "at " << i;
 }
 
 /// Tractions along the surface as recovered under a pressure that is uniform.
@@ -103,8 +106,7 @@ Values shear(const State& s, const Values& t)
   for (std::size_t i = 0; i < t.size(); ++i)
     if (s.closed[i / s.gdim()])
       lambda[i] += s.normal[i];
-  const results::Recovered found
-      = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
+  const results::Recovered found = s.recovered(lambda);
   Values result = found.traction;
   for (std::size_t i = 0; i < t.size(); ++i)
     result[i] -= found.pressure[i / s.gdim()] * s.normal[i];
@@ -199,18 +201,9 @@ TEST(Recovery, IsWhatItsFormulasSay)
     for (double& value : p)
       value *= -1;
     expect_near(s.recovery().pressure(p, s.area, s.closed), dense(s, p), 1e-14);
-  }
-}
-
-TEST(Recovery, AUniformPressureStays)
-{
-  Generator random(2);
-  for (Facets kind : all_facets)
-  {
-    const State s(kind, random);
-    Values p;
-    for (std::int8_t c : s.closed)
-      p.push_back(c ? 2.5 : 0);
+    // A uniform pressure stays
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p[i] = s.closed[i] ? 2.5 : 0;
     expect_near(s.recovery().pressure(p, s.area, s.closed), p, 1e-13);
   }
 }
@@ -226,9 +219,7 @@ TEST(Recovery, AUniformTractionStays)
     for (std::int8_t c : s.closed)
       for (int k = 0; k < s.gdim(); ++k)
         lambda.push_back(c ? traction[k] : 0);
-    const results::Recovered found
-        = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
-    expect_near(found.traction, lambda, 1e-14);
+    expect_near(s.recovered(lambda).traction, lambda, 1e-14);
   }
 }
 
@@ -266,12 +257,8 @@ TEST(Recovery, TheFrictionConeIsKept)
     // Nodes slip and stick by turns
     for (double q : p)
       sizes.push_back(mu * q * (random(0, 1) < 0.5 ? 1 : random(0, 1)));
-    const Values t = s.along(sizes, random);
-    Values lambda = t;
-    for (std::size_t i = 0; i < t.size(); ++i)
-      lambda[i] += p[i / s.gdim()] * s.normal[i];
     const results::Recovered found
-        = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
+        = s.recovered(s.pressed(p, s.along(sizes, random)));
     for (std::size_t i = 0; i < s.size(); ++i)
     {
       const Vector<3> n = s.vector(s.normal, i);
@@ -339,11 +326,8 @@ void expect_no_change_by_a_motion(Facets kind, Generator& random)
     return result;
   };
   const Values p = s.pressures(random);
-  Values lambda = s.along(p, random);
-  for (std::size_t i = 0; i < lambda.size(); ++i)
-    lambda[i] += p[i / D] * s.normal[i];
-  const results::Recovered found
-      = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
+  const Values lambda = s.pressed(p, s.along(p, random));
+  const results::Recovered found = s.recovered(lambda);
   const results::Recovery there(slave_nodes(s.scene), moved(s.scene.x, true),
                                 D);
   const results::Recovered turned = there.tractions(
@@ -523,20 +507,11 @@ TEST(Recovery, TractionsArePressureAndShear)
   {
     const State s(kind, random, 8, false);
     const Values p = s.pressures(random), t = s.along(p, random);
-    const auto sum = [&](const Values& pressure, const Values& shear)
-    {
-      Values v = shear;
-      for (std::size_t i = 0; i < v.size(); ++i)
-        v[i] += pressure[i / s.gdim()] * s.normal[i];
-      return v;
-    };
-    const results::Recovery recovery = s.recovery();
-    const results::Recovered found
-        = recovery.tractions(sum(p, t), s.normal, s.area, s.closed);
-    const Values q = recovery.pressure(p, s.area, s.closed);
+    const results::Recovered found = s.recovered(s.pressed(p, t));
+    const Values q = s.recovery().pressure(p, s.area, s.closed);
     expect_near(found.pressure, q, 1e-14);
     // The sum of the forces along a plane stays
-    const Values along = sum(q, Values(t.size(), 0));
+    const Values along = s.pressed(q, Values(t.size(), 0));
     for (int k = 0; k < s.gdim(); ++k)
     {
       double before = 0, after = 0;
@@ -571,11 +546,8 @@ TEST(Recovery, IsTheSameOnRanks)
       const State s(kind, random);
       const int gdim = s.gdim();
       const Values p = s.pressures(random);
-      Values lambda = s.along(p, random);
-      for (std::size_t i = 0; i < lambda.size(); ++i)
-        lambda[i] += p[i / gdim] * s.normal[i];
-      const results::Recovered found
-          = s.recovery().tractions(lambda, s.normal, s.area, s.closed);
+      const Values lambda = s.pressed(p, s.along(p, random));
+      const results::Recovered found = s.recovered(lambda);
       mesh::OneRank alone;
       const double change
           = results::recovery_change(alone, lambda, found.traction, gdim);

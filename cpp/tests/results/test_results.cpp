@@ -18,20 +18,11 @@ using results::Results;
 
 namespace
 {
-template <class M>
-class ResultsOf : public testing::Test
-{
-};
+template <class>
+using ResultsOf = testing::Test;
 
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(ResultsOf, Methods);
-
-std::shared_ptr<law::Coulomb> coulomb(std::size_t n, double friction)
-{
-  auto law = std::make_shared<law::Coulomb>();
-  law->set_friction(std::vector<double>(n, friction));
-  return law;
-}
 
 /// Close all slave nodes with a pressure.
 void press(Contact& contact, double pressure)
@@ -49,10 +40,7 @@ template <class M>
 std::shared_ptr<Contact> uneven(ContactScene& scene)
 {
   const int g = scene.sheets.gdim;
-  for (std::size_t i = 0; i < scene.mesh.number.size(); ++i)
-    for (int k = 0; k < g; ++k)
-      (*scene.u)[g * i + k]
-          = 0.01 * std::sin(3. * double(scene.mesh.number[i]) + k);
+  scene.make_uneven();
   const auto owned = scene.slaves->owned();
   auto contact = scene.contact<M>(coulomb(owned.size(), 0.4));
   contact->search();
@@ -81,12 +69,6 @@ Vector<3> moment(const Results& results, int gdim)
 {
   const Vector<3> point = point_in(gdim);
   return results.moment(std::span<const double>(point).first(gdim));
-}
-
-void expect_near(const Vector<3>& a, const Vector<3>& b, double tolerance)
-{
-  for (int k = 0; k < 3; ++k)
-    EXPECT_NEAR(a[k], b[k], tolerance) << "component " << k;
 }
 
 /// A fold of a strip whose legs overlap, in contact with itself.
@@ -160,7 +142,7 @@ TYPED_TEST(ResultsOf, AUniformPressureHasTheForceAndMomentOfItsMiddle)
     if (dim == 2)
       middle = {0.5, height, 0};
     expect_near(results.force(), force, 1e-13);
-    expect_near(results.imbalance(), {}, 1e-13);
+    expect_near(results.imbalance(), {0, 0, 0}, 1e-13);
     expect_near(moment(results, dim), cross(middle - point_in(dim), force),
                 1e-13);
     EXPECT_NEAR(results.recovery_change(), 0, 1e-13);
@@ -225,7 +207,7 @@ TYPED_TEST(ResultsOf, ForcesAreInBalanceAndTheSameOnRanks)
     alone.update();
     ASSERT_GT(norm(alone.force()), 0.1);
     ASSERT_GT(norm(moment(alone, dim)), 0.01);
-    expect_near(alone.imbalance(), {}, 1e-13);
+    expect_near(alone.imbalance(), {0, 0, 0}, 1e-13);
     const results::Totals totals = alone.totals();
     ASSERT_GT(totals.closed, totals.slipping);
     on_ranks(
@@ -236,7 +218,7 @@ TYPED_TEST(ResultsOf, ForcesAreInBalanceAndTheSameOnRanks)
           Results here(uneven<TypeParam>(part));
           here.update();
           expect_near(here.force(), alone.force(), 1e-13);
-          expect_near(here.imbalance(), {}, 1e-13);
+          expect_near(here.imbalance(), {0, 0, 0}, 1e-13);
           expect_near(moment(here, dim), moment(alone, dim), 1e-13);
           EXPECT_NEAR(here.recovery_change(), alone.recovery_change(), 1e-13);
           const results::Totals there = here.totals();
@@ -326,7 +308,7 @@ TYPED_TEST(ResultsOf, ValuesOnBothSurfacesAndAcross)
   const Results results(contact);
   const std::int32_t n = scene.sheets.num_slaves;
   const std::size_t every = scene.halo->num_owned();
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double nan = std::nan("");
   std::vector<double> values(n, 3);
   values[0] = nan;
   const std::vector<double> both = results.on_both(values, -7);
@@ -358,20 +340,13 @@ TYPED_TEST(ResultsOf, ValuesOnBothSurfacesAndAcross)
 
 TEST(Results, ARigidObstacleCarriesItsForce)
 {
-  Scene slave(3);
-  for (const Vector<3>& p : {Vector<3>{0, 0, 0.1}, Vector<3>{0, 2, 0.1},
-                             Vector<3>{2, 0, 0.1}, Vector<3>{2, 2, 0.1}})
-    slave.node(p);
-  slave.facet({0, 1, 2, 3});
-  MovedContact moved(
-      slave, std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
-                                               std::vector<double>{0, 0, 1}));
+  MovedContact moved = square_above_plane();
   moved.move(0, 4, -0.1);
   press(*moved.contact, 3);
   Results results(moved.contact);
   results.update();
   expect_near(results.force(), {0, 0, 12}, 1e-13);
-  expect_near(results.imbalance(), {}, 1e-13);
+  expect_near(results.imbalance(), {0, 0, 0}, 1e-13);
   // Forces act where the nodes have moved to
   expect_near(moment(results, 3),
               cross(Vector<3>{1, 1, 0} - point_in(3), {0, 0, 12}), 1e-13);
@@ -403,7 +378,7 @@ TEST(Results, TheForceOfSelfContactIsThatOnNodesInContact)
   Results results(fold.contact);
   results.update();
   expect_near(results.force(), force, 1e-12);
-  expect_near(results.imbalance(), {}, 1e-12);
+  expect_near(results.imbalance(), {0, 0, 0}, 1e-12);
 }
 
 TEST(Results, VerticesOfQuadraticTrianglesWithoutAPairAreLikeTheirNeighbours)

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 using namespace contactx;
-using namespace contactx::solve;
 using namespace contactx::contact;
+using namespace contactx::solve;
 using namespace contactx::tests;
 
 namespace
@@ -71,10 +71,8 @@ struct Springs : SpringBodies
   }
 };
 
-template <class M>
-class ActiveSets : public testing::Test
-{
-};
+template <class>
+using ActiveSets = testing::Test;
 
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(ActiveSets, Methods);
@@ -117,9 +115,7 @@ TYPED_TEST(ActiveSets, FrictionStaysInTheCone)
   for (int dim : {2, 3})
   {
     Springs scene(dim);
-    auto law = std::make_shared<law::Coulomb>();
-    law->set_friction(std::vector<double>(scene.scene.sheets.num_slaves, 0.3));
-    scene.add<TypeParam>(law);
+    scene.add<TypeParam>(scene.law(0.3));
     scene.press(0.09, 0.0, 0.6);
     ASSERT_GE(scene.solve(), 0);
     // Aside: nodes at the edge slip, those in the middle stick
@@ -172,8 +168,7 @@ TEST(ActiveSet, AFarActiveSetFreezesTheKinematics)
   scene.set->update(scene.none, true);
   EXPECT_FALSE(scene.set->is_frozen());
   // All nodes close at once
-  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
-    (*scene.scene.u)[3 * i + 2] = -0.1;
+  scene.scene.put_slave(0, -0.1);
   scene.set->update(scene.none);
   EXPECT_EQ(scene.set->changes().status, scene.scene.sheets.num_slaves);
   EXPECT_TRUE(scene.set->is_frozen());
@@ -201,18 +196,11 @@ TEST(ActiveSet, AResidualOfFrozenKinematicsIsAskedForAgain)
       std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
   scene.set->update(scene.none, true);
   EXPECT_EQ(scene.set->may_end(scene.none), ActiveSet::End::solution);
-  const auto move = [&](double down)
-  {
-    for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
-      (*scene.scene.u)[2 * i + 1] = -down;
-  };
-  move(0.1);
+  scene.scene.put_slave(0, -0.1);
   scene.set->update(scene.none);
   ASSERT_TRUE(scene.set->is_frozen());
   // Many open again while frozen, far aside: pairs stay
-  move(0.0);
-  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
-    (*scene.scene.u)[2 * i] = 0.7;
+  scene.scene.put_slave(0.7, 0);
   std::ranges::fill(nodes.multiplier, 0.0);
   const auto facets
       = [&] { return scene.contacts[0]->master()->weights().nodes; };
@@ -251,8 +239,7 @@ TEST(ActiveSet, KinematicsFreezeWhereMoreThanAFifthChanges)
   }
   // Or goes to another facet
   all_closed();
-  for (std::int32_t i = 0; i < n; ++i)
-    (*scene.scene.u)[3 * i] = 0.7;
+  scene.scene.put_slave(0.7, 0);
   const auto found = scene.set->update(scene.none);
   EXPECT_EQ(found.status, 0);
   EXPECT_EQ(found.pairs, n);
@@ -268,8 +255,7 @@ TEST(ActiveSet, WhatGoesBackAndForthOnAFarActiveSetCountsForNothing)
   scene.set->begin_step();
   scene.set->update(scene.none, true);
   master.releases = 0;
-  for (std::int32_t i = 0; i < scene.scene.sheets.num_slaves; ++i)
-    (*scene.scene.u)[2 * i + 1] = -0.1;
+  scene.scene.put_slave(0, -0.1);
   scene.set->update(scene.none);
   EXPECT_EQ(master.releases, 1);
   // Nor does the residual of those pairs: that is none of the two releases
@@ -347,8 +333,7 @@ TEST(ActiveSet, ANodeOfTwoContactsLeavesTheOneThatItDoesNotNeed)
   alone.add<NodeToSurface>(std::make_shared<law::Frictionless>());
   alone.press(0.09, 0.0);
   EXPECT_GT(alone.solve(), 0);
-  for (std::size_t k = 0; k < alone.scene.u->size(); ++k)
-    EXPECT_NEAR((*scene.scene.u)[k], (*alone.scene.u)[k], 1e-13);
+  expect_near(*scene.scene.u, *alone.scene.u, 1e-13);
   EXPECT_EQ(scene.set->num_closed(), alone.set->num_closed());
   EXPECT_EQ(scene.set->num_corners(), 0);
 }
@@ -376,12 +361,7 @@ TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
     Springs scene(3);
     scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
     if (has_friction)
-    {
-      auto law = std::make_shared<law::Coulomb>();
-      law->set_friction(
-          std::vector<double>(scene.scene.sheets.num_slaves, 0.3));
-      scene.add<NodeToSurface>(law);
-    }
+      scene.add<NodeToSurface>(scene.law(0.3));
     scene.set->begin_step();
     std::vector<std::vector<double>> changes;
     for (const auto& c : scene.contacts)
@@ -436,9 +416,8 @@ TEST(ActiveSet, IteratesThatGoRoundAreShortened)
 TEST(ActiveSet, SlipTurnsBackFartherWhereIteratesGoRound)
 {
   Springs scene(2);
-  auto law = std::make_shared<law::Coulomb>();
   const std::int32_t n = scene.scene.sheets.num_slaves;
-  law->set_friction(std::vector<double>(n, 0.5));
+  const auto law = scene.law(0.5);
   scene.add<NodeToSurface>(law);
   scene.set->begin_step();
   law::NodeState& nodes = *scene.contacts[0]->nodes();

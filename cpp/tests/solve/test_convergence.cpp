@@ -305,50 +305,40 @@ TEST(Convergence, TheFarthestIsTheSceneOrWhatIsPrescribed)
 
 TEST(Convergence, GapsOfClosedNodesHaveTheRoundingOfPositions)
 {
-  SpringBodies bodies(2);
-  bodies.add<contact::NodeToSurface>(bodies.law(0));
-  const auto system = bodies.system();
-  solve::Convergence convergence(system);
-  law::NodeState& nodes = *bodies.contacts[0]->nodes();
-  // An open node asks for nothing
-  std::ranges::fill(nodes.c, 1e9);
-  nodes.c[1] = 1e6;
-  nodes.status[1] = law::slip;
-  convergence.begin_step(std::vector<double>(bodies.scene.sheets.num_nodes()));
-  // From -1 to 2
-  bodies.bulk->load[0] = 1e-3;
-  (*bodies.scene.u)[0] = -0.25;
-  const double rounding = eps * nodes.area[1] * 1e6 * 2.25;
-  std::vector<double> b(system->size());
-  for (const double part : {0.99, 1.01})
+  // In small sliding that of displacements
+  for (const contact::Sliding sliding :
+       {contact::Sliding::finite, contact::Sliding::small})
   {
-    b[system->num_displacements() + 1] = part * rounding;
-    const auto found = convergence.compare(b, 1e-12, 0);
-    EXPECT_EQ(found.residual <= found.tolerance, part < 1) << part;
-  }
-}
-
-TEST(Convergence, GapsOfSmallSlidingHaveTheRoundingOfDisplacements)
-{
-  SpringBodies bodies(2);
-  bodies.add<contact::NodeToSurface>(bodies.law(0), contact::Sliding::small);
-  const auto system = bodies.system();
-  solve::Convergence convergence(system);
-  contact::Contact& contact = *bodies.contacts[0];
-  contact.nodes()->c[1] = 1e6;
-  contact.nodes()->status[1] = law::slip;
-  convergence.begin_step(std::vector<double>(bodies.scene.sheets.num_nodes()));
-  bodies.bulk->load[0] = 1e-3;
-  (*bodies.scene.u)[0] = -0.25;
-  // The offset is another length of theirs
-  contact.set_offset(std::vector<double>(contact.nodes()->status.size(), -0.5));
-  const double rounding = eps * contact.nodes()->area[1] * 1e6 * (0.5 + 0.25);
-  std::vector<double> b(system->size());
-  for (const double part : {0.99, 1.01})
-  {
-    b[system->num_displacements() + 1] = part * rounding;
-    const auto found = convergence.compare(b, 1e-12, 0);
-    EXPECT_EQ(found.residual <= found.tolerance, part < 1) << part;
+    SpringBodies bodies(2);
+    bodies.add<contact::NodeToSurface>(bodies.law(0), sliding);
+    const auto system = bodies.system();
+    solve::Convergence convergence(system);
+    contact::Contact& contact = *bodies.contacts[0];
+    law::NodeState& nodes = *contact.nodes();
+    // An open node asks for nothing
+    std::ranges::fill(nodes.c, 1e9);
+    nodes.c[1] = 1e6;
+    nodes.status[1] = law::slip;
+    convergence.begin_step(
+        std::vector<double>(bodies.scene.sheets.num_nodes()));
+    // From -1 to 2
+    bodies.bulk->load[0] = 1e-3;
+    (*bodies.scene.u)[0] = -0.25;
+    double length = 2.25;
+    if (sliding == contact::Sliding::small)
+    {
+      // The offset is another length of theirs
+      contact.set_offset(std::vector<double>(nodes.status.size(), -0.5));
+      length = 0.5 + 0.25;
+    }
+    std::vector<double> b(system->size());
+    for (const double part : {0.99, 1.01})
+    {
+      b[system->num_displacements() + 1]
+          = part * eps * nodes.area[1] * 1e6 * length;
+      const auto found = convergence.compare(b, 1e-12, 0);
+      EXPECT_EQ(found.residual <= found.tolerance, part < 1) << part;
+    }
   }
 }
 

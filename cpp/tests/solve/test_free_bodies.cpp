@@ -61,6 +61,11 @@ struct Block
     return scene.push(0, std::move(force));
   }
 
+  Forces loads(std::vector<double> force) const
+  {
+    return scene.loads(load(std::move(force)));
+  }
+
   std::set<std::int32_t> nodes(std::int8_t kind) const
   {
     std::set<std::int32_t> found;
@@ -98,10 +103,9 @@ TEST(FreeBodies, WithoutALoadSpringsAloneHoldABlock)
   {
     Block block(g);
     FreeBodies free = block.scene.free_bodies();
-    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g)))))
-        << "no step has begun";
+    EXPECT_FALSE(free.stabilise(block.loads(down(g)))) << "no step has begun";
     free.begin_step();
-    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g, 0)))));
+    EXPECT_FALSE(free.stabilise(block.loads(down(g, 0))));
     EXPECT_EQ(free.free_modes(), num_modes(g));
     EXPECT_EQ(free.closed_for_balance(), 0);
     EXPECT_FALSE(free.is_unbalanced());
@@ -118,9 +122,8 @@ TEST(FreeBodies, ABlockClosesTheNodesThatItMeetsFirst)
 {
   // In 2D the nearest node, then the one that turning about it takes down first
   Block block(2);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
-  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(2)))));
+  FreeBodies free = block.scene.begun();
+  EXPECT_TRUE(free.stabilise(block.loads(down(2))));
   EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 3}));
   EXPECT_EQ(free.closed_for_balance(), 2);
   EXPECT_EQ(free.free_modes(), 1);
@@ -128,9 +131,8 @@ TEST(FreeBodies, ABlockClosesTheNodesThatItMeetsFirst)
   EXPECT_EQ(num_springs(free), 1);
   // In 3D the edge that is nearest, then the one across
   Block solid(3);
-  FreeBodies held = solid.scene.free_bodies();
-  held.begin_step();
-  EXPECT_TRUE(held.stabilise(solid.scene.loads(solid.load(down(3)))));
+  FreeBodies held = solid.scene.begun();
+  EXPECT_TRUE(held.stabilise(solid.loads(down(3))));
   EXPECT_EQ(solid.nodes(law::slip),
             (std::set<std::int32_t>{0, 4, 8, 12, 3, 7, 11, 15}));
   EXPECT_EQ(held.free_modes(), 3);
@@ -143,9 +145,8 @@ TEST(FreeBodies, NodesThatAreAsNearCloseTogether)
     Block block(g, 0, 0);
     // But for rounding
     block.floor->gap[1] += 1e-15;
-    FreeBodies free = block.scene.free_bodies();
-    free.begin_step();
-    EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(g)))));
+    FreeBodies free = block.scene.begun();
+    EXPECT_TRUE(free.stabilise(block.loads(down(g))));
     EXPECT_EQ(free.closed_for_balance(), g == 2 ? 4 : 16);
   }
 }
@@ -154,9 +155,8 @@ TEST(FreeBodies, NodesThatPenetrateTouchAtOnce)
 {
   Block block(2);
   block.floor->gap = {-0.1, -0.05, 1e-3, -0.01};
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
-  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(down(2)))));
+  FreeBodies free = block.scene.begun();
+  EXPECT_TRUE(free.stabilise(block.loads(down(2))));
   EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 1, 3}));
 }
 
@@ -177,8 +177,7 @@ TEST(FreeBodies, BodiesMoveAsTheirNumbersOfNodesLetThem)
     std::vector<const NodeContact*> order;
     for (const auto& contact : {large, small})
       contact->on_close = [&order, c = contact.get()] { order.push_back(c); };
-    FreeBodies free = scene.free_bodies();
-    free.begin_step();
+    FreeBodies free = scene.begun();
     std::vector<double> load = scene.push(0, down(2));
     for (std::size_t i = 32; i < 40; ++i)
       load[i] *= 4;
@@ -191,11 +190,10 @@ TEST(FreeBodies, BodiesMoveAsTheirNumbersOfNodesLetThem)
 TEST(FreeBodies, ASupportMayGetItsStiffnessOnTheWay)
 {
   Block block(2);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = block.scene.begun();
   for (double& spring : block.scene.bulk->ground)
     spring = 1;
-  const auto forces = block.scene.loads(block.load(down(2, -1)));
+  const auto forces = block.loads(down(2, -1));
   free.stabilise(forces);
   EXPECT_TRUE(free.is_unbalanced());
   EXPECT_EQ(free.free_modes(), 3);
@@ -209,9 +207,8 @@ TEST(FreeBodies, NodesThatCannotCloseStayOpen)
   Block block(2);
   block.floor->gap[0] = std::nan("");
   block.floor->found.paired[3] = 0;
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
-  free.stabilise(block.scene.loads(block.load(down(2))));
+  FreeBodies free = block.scene.begun();
+  free.stabilise(block.loads(down(2)));
   EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{1, 2}));
 }
 
@@ -220,34 +217,29 @@ TEST(FreeBodies, APullThatNothingBalancesIsFound)
   for (const int g : {2, 3})
   {
     Block block(g);
-    FreeBodies free = block.scene.free_bodies();
-    free.begin_step();
-    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g, -1)))));
+    FreeBodies free = block.scene.begun();
+    EXPECT_FALSE(free.stabilise(block.loads(down(g, -1))));
     EXPECT_TRUE(free.is_unbalanced());
     EXPECT_EQ(free.free_modes(), num_modes(g));
     // As stiff as what keeps it near
     EXPECT_GT(stiffest(free),
               1e-4 * std::ranges::max(block.scene.bulk->diagonal()));
     // A load that comes back to nothing
-    EXPECT_FALSE(free.stabilise(block.scene.loads(block.load(down(g, 0)))));
+    EXPECT_FALSE(free.stabilise(block.loads(down(g, 0))));
     EXPECT_FALSE(free.is_unbalanced());
   }
   // A push aside that no friction holds
   Block block(2, 0, 0, 0);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
-  EXPECT_TRUE(free.stabilise(block.scene.loads(block.load({0.1, -1}))));
+  FreeBodies free = block.scene.begun();
+  EXPECT_TRUE(free.stabilise(block.loads({0.1, -1})));
   EXPECT_TRUE(free.is_unbalanced());
   EXPECT_EQ(free.free_modes(), 1);
   // Forces below one in a million of the problem's count for nothing
   Block light(2);
-  FreeBodies still = light.scene.free_bodies();
-  still.begin_step();
-  EXPECT_FALSE(
-      still.stabilise(light.scene.loads(light.load(down(2, -0.9e-6 / 16)))));
+  FreeBodies still = light.scene.begun();
+  EXPECT_FALSE(still.stabilise(light.loads(down(2, -0.9e-6 / 16))));
   EXPECT_FALSE(still.is_unbalanced());
-  EXPECT_FALSE(
-      still.stabilise(light.scene.loads(light.load(down(2, -1.1e-6 / 16)))));
+  EXPECT_FALSE(still.stabilise(light.loads(down(2, -1.1e-6 / 16))));
   EXPECT_TRUE(still.is_unbalanced());
 }
 
@@ -294,8 +286,7 @@ TEST(FreeBodies, ATowerOfTwoBlocksComesToRest)
       // The load is on the upper one alone, and goes through the lower one
       Tower tower(g, between, 0.3);
       const int n = tower.scene.truss.num_nodes() / 2;
-      FreeBodies free = tower.scene.free_bodies();
-      free.begin_step();
+      FreeBodies free = tower.scene.begun();
       EXPECT_TRUE(
           free.stabilise(tower.scene.loads(tower.scene.push(n, down(g)))));
       EXPECT_FALSE(free.is_unbalanced());
@@ -310,8 +301,7 @@ TEST(FreeBodies, ATowerOfTwoBlocksComesToRest)
   std::vector<double> load = tower.scene.push(0, down(2));
   for (std::size_t i = load.size() / 2; i < load.size(); ++i)
     load[i] *= -1;
-  FreeBodies free = tower.scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = tower.scene.begun();
   EXPECT_TRUE(free.stabilise(tower.scene.loads(load)));
   EXPECT_TRUE(free.is_unbalanced());
   EXPECT_EQ(std::ranges::count(tower.lower->kind, law::slip), 3);
@@ -325,11 +315,10 @@ TEST(FreeBodies, ABlockSticksFirstWhereSlipReverses)
     // Pushed back where it slips along x: the least slip is at the smallest x
     Block block(g, 0.3);
     block.slide(0.02);
-    FreeBodies free = block.scene.free_bodies();
-    free.begin_step();
+    FreeBodies free = block.scene.begun();
     std::vector<double> back(g);
     back[0] = -0.01;
-    EXPECT_TRUE(free.stabilise(block.scene.loads(block.load(back))));
+    EXPECT_TRUE(free.stabilise(block.loads(back)));
     EXPECT_EQ(free.closed_for_balance(), 0);
     EXPECT_EQ(free.free_modes(), 0);
     EXPECT_FALSE(free.springs());
@@ -350,16 +339,14 @@ TEST(FreeBodies, ABlockSticksFirstWhereSlipReverses)
   bare.slide(0.02);
   bare.floor->traction[0] = bare.floor->traction[1] = 0;
   bare.floor->gap[0] = -0.1;
-  FreeBodies next = bare.scene.free_bodies();
-  next.begin_step();
-  EXPECT_TRUE(next.stabilise(bare.scene.loads(bare.load({-0.01, 0}))));
+  FreeBodies next = bare.scene.begun();
+  EXPECT_TRUE(next.stabilise(bare.loads({-0.01, 0})));
   EXPECT_EQ(bare.nodes(law::stick), std::set<std::int32_t>{1});
   // A push on along the slip reverses nothing
   Block block(2, 0.3);
   block.slide(0.02);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
-  EXPECT_FALSE(free.stabilise(block.scene.loads(block.load({0.5, 0}))));
+  FreeBodies free = block.scene.begun();
+  EXPECT_FALSE(free.stabilise(block.loads({0.5, 0})));
   EXPECT_TRUE(free.is_unbalanced());
 }
 
@@ -372,10 +359,8 @@ TEST(FreeBodies, WhatSlipLacksToTheConeCountsInTheBalance)
     Block block(2, 0.3);
     block.slide(0.02);
     // The moment of the load about the floor goes to pressures
-    FreeBodies free = block.scene.free_bodies();
-    free.begin_step();
-    EXPECT_EQ(free.stabilise(block.scene.loads(block.load({part * whole, 0}))),
-              part < 1);
+    FreeBodies free = block.scene.begun();
+    EXPECT_EQ(free.stabilise(block.loads({part * whole, 0})), part < 1);
     EXPECT_FALSE(free.is_unbalanced());
     EXPECT_EQ(free.free_modes(), part < 1 ? 0 : 1);
   }
@@ -385,10 +370,9 @@ TEST(FreeBodies, In3DTractionsOfTheIterateCountAlone)
 {
   Block block(3, 0.3);
   block.slide(0.02);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = block.scene.begun();
   const double whole = 16 * 0.1 * (0.3 - 0.02) / 64;
-  EXPECT_FALSE(free.stabilise(block.scene.loads(block.load({whole, 0, 0}))));
+  EXPECT_FALSE(free.stabilise(block.loads({whole, 0, 0})));
   EXPECT_TRUE(free.is_unbalanced());
 }
 
@@ -415,8 +399,7 @@ struct Disc
 TEST(FreeBodies, SpringsOfADiscThatMayRollCarryNoForce)
 {
   Disc disc;
-  FreeBodies free = disc.scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = disc.scene.begun();
   // Its middle is pressed down
   std::vector<double> load(26);
   load[1] = -1;
@@ -449,8 +432,7 @@ TEST(FreeBodies, ADiscThatIsTurnedIsUnbalanced)
   Disc disc;
   disc.floor->found.paired.assign(12, 0);
   disc.floor->found.paired[0] = 1;
-  FreeBodies free = disc.scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = disc.scene.begun();
   std::vector<double> load(26);
   load[1] = -1;
   // A pair of forces at the rim
@@ -468,20 +450,17 @@ TEST(FreeBodies, ABlockOnWeakSpringsDoesNotPassThroughThePlane)
       Block block(2);
       for (double& spring : block.scene.bulk->ground)
         spring = k;
-      FreeBodies free = block.scene.free_bodies();
-      free.begin_step();
+      FreeBodies free = block.scene.begun();
       // The springs let the load move it by more than the gap, or by less
       const double force = k * 0.05 * (meets ? 1.01 : 0.99);
-      EXPECT_EQ(free.stabilise(block.scene.loads(block.load(down(2, force)))),
-                meets);
+      EXPECT_EQ(free.stabilise(block.loads(down(2, force))), meets);
       EXPECT_EQ(block.nodes(law::slip).contains(0), meets);
       // What the springs hold needs no others
       EXPECT_EQ(free.free_modes(), 0);
       EXPECT_FALSE(free.springs());
       // Later iterates are Newton's
       block.floor->kind[0] = law::open;
-      EXPECT_FALSE(
-          free.stabilise(block.scene.loads(block.load(down(2, 10 * k)))));
+      EXPECT_FALSE(free.stabilise(block.loads(down(2, 10 * k))));
     }
 }
 
@@ -493,7 +472,7 @@ TEST(FreeBodies, DriftIsTheRigidPartOfAStep)
     FreeBodies free = block.scene.free_bodies();
     EXPECT_FALSE(free.drift());
     free.begin_step();
-    free.stabilise(block.scene.loads(block.load(down(g))));
+    free.stabilise(block.loads(down(g)));
     const std::size_t n = block.scene.truss.x.size();
     // It slides along, and the plane keeps it from what is not free
     auto& u = block.scene.bulk->u;
@@ -526,15 +505,13 @@ TEST(FreeBodies, DriftIsTheRigidPartOfAStep)
 TEST(FreeBodies, NothingDriftsWhereFrictionOrForcesAskForAMotion)
 {
   Block rough(2, 0.3, 0, 0);
-  FreeBodies free = rough.scene.free_bodies();
-  free.begin_step();
-  free.stabilise(rough.scene.loads(rough.load({0, 0})));
+  FreeBodies free = rough.scene.begun();
+  free.stabilise(rough.loads({0, 0}));
   EXPECT_EQ(free.free_modes(), 3);
   EXPECT_FALSE(free.drift());
   Block pulled(2);
-  FreeBodies away = pulled.scene.free_bodies();
-  away.begin_step();
-  away.stabilise(pulled.scene.loads(pulled.load({0, 1})));
+  FreeBodies away = pulled.scene.begun();
+  away.stabilise(pulled.loads({0, 1}));
   EXPECT_TRUE(away.is_unbalanced());
   EXPECT_FALSE(away.drift());
 }
@@ -546,8 +523,7 @@ TEST(FreeBodies, LinearStrainsBalanceInTheReference)
   {
     Block block(2, 0, 0, 0);
     block.scene.bulk->linear = linear;
-    FreeBodies free = block.scene.free_bodies();
-    free.begin_step();
+    FreeBodies free = block.scene.begun();
     const std::vector<double> aside = block.load({0.1, 0}),
                               none = block.load({0, 0});
     free.stabilise(block.scene.loads(aside, none));
@@ -557,8 +533,7 @@ TEST(FreeBodies, LinearStrainsBalanceInTheReference)
   Block block(2, 0.3, 0, 0);
   block.scene.bulk->linear = true;
   block.floor->found.paired.assign(4, 0);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = block.scene.begun();
   free.stabilise(block.scene.loads(block.load({0.1, 0}), block.load({0, 0})));
   EXPECT_TRUE(free.is_unbalanced());
 }
@@ -571,8 +546,7 @@ TEST(FreeBodies, WhereAllIsLinearMotionsAreAboutTheReference)
     Block block(2, 0, 0, 0);
     block.scene.bulk->linear = true;
     block.floor->small = small;
-    FreeBodies free = block.scene.free_bodies();
-    free.begin_step();
+    FreeBodies free = block.scene.begun();
     const auto& x = block.scene.truss.x;
     auto& u = block.scene.bulk->u;
     for (std::size_t i = 0; i < u.size(); i += 2)
@@ -607,7 +581,7 @@ TEST(FreeBodies, NoDecisionDependsOnTheAxes)
   FreeBodies straight = block.scene.free_bodies(), skew = scene.free_bodies();
   straight.begin_step();
   skew.begin_step();
-  straight.stabilise(block.scene.loads(block.load({0, -1})));
+  straight.stabilise(block.loads({0, -1}));
   skew.stabilise(scene.loads(scene.push(0, {s, -c})));
   EXPECT_EQ(slope->kind, block.floor->kind);
   EXPECT_EQ(skew.free_modes(), straight.free_modes());
@@ -638,12 +612,11 @@ TEST(FreeBodies, OnSeveralRanksTheyAreThoseOfOne)
         Block block(g, c.friction, c.slope, 0.05, ranks);
         if (c.friction > 0)
           block.slide(0.02);
-        FreeBodies free = block.scene.free_bodies();
-        free.begin_step();
+        FreeBodies free = block.scene.begun();
         Outcome outcome;
         std::vector<double> force = c.load;
         force.resize(g);
-        outcome.changed = free.stabilise(block.scene.loads(block.load(force)));
+        outcome.changed = free.stabilise(block.loads(force));
         outcome.unbalanced = free.is_unbalanced();
         outcome.free = free.free_modes();
         outcome.closed = free.closed_for_balance();
@@ -683,9 +656,8 @@ TEST(FreeBodies, OnSeveralRanksTheyAreThoseOfOne)
 TEST(FreeBodies, WhatDoesNotFitIsRefused)
 {
   Block block(2);
-  FreeBodies free = block.scene.free_bodies();
-  free.begin_step();
-  auto forces = block.scene.loads(block.load({0, -1}));
+  FreeBodies free = block.scene.begun();
+  auto forces = block.loads({0, -1});
   auto few = forces;
   few.residual = [] { return std::vector<double>(3); };
   EXPECT_THROW(free.stabilise(few), std::invalid_argument);
@@ -702,13 +674,13 @@ TEST(FreeBodies, WhatDoesNotFitIsRefused)
   EXPECT_THROW(free.begin_step(), std::runtime_error);
   EXPECT_FALSE(free.stabilise(forces));
 }
+
 TEST(FreeBodies, TurnsOfABodyThatIsALineAreRefused)
 {
   // A bar in space: nothing turns about its own axis
   FreeScene scene(Truss{3, {0, 0, 0, 1, 0, 0}, {0, 1}});
   scene.bulk->linear = true;
-  FreeBodies free = scene.free_bodies();
-  free.begin_step();
+  FreeBodies free = scene.begun();
   EXPECT_THROW(free.turned(), std::domain_error);
 }
 } // namespace

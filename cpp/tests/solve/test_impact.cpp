@@ -18,20 +18,11 @@ namespace
 constexpr double dt = 0.25;
 
 /// What is asked of contacts of either method.
-template <class M>
-class Impacts : public testing::Test
-{
-};
+template <class>
+using Impacts = testing::Test;
 
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(Impacts, Methods);
-
-std::shared_ptr<law::Coulomb> coulomb(std::size_t n, double friction)
-{
-  auto law = std::make_shared<law::Coulomb>();
-  law->set_friction(std::vector<double>(n, friction));
-  return law;
-}
 
 /// Two sheets in contact that have masses and velocities.
 struct MovingScene

@@ -179,7 +179,7 @@ TEST(SharedNodes, TheSameNormalTwiceIsNeverKept)
 
 TEST(SharedNodes, BesideATieOtherContactsStayOpen)
 {
-  const double none = std::numeric_limits<double>::quiet_NaN();
+  const double none = std::nan("");
   for (double gap : {0., 1., none})
   {
     Node node(3);

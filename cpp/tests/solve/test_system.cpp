@@ -59,7 +59,7 @@ struct Hanging : SpringBodies
   }
 
   /// Dirichlet values that the displacements have.
-  void set_master_facets()
+  void meet_values()
   {
     for (std::size_t i = 0; i < bulk->values.size(); ++i)
       if (bulk->fixed[i])
@@ -87,13 +87,6 @@ struct Hanging : SpringBodies
   std::shared_ptr<solve::System> system;
 };
 
-void expect_near(std::span<const double> a, std::span<const double> b,
-                 double error)
-{
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    EXPECT_NEAR(a[i], b[i], error) << i;
-}
 } // namespace
 
 TEST(System, UnknownsAreDisplacementsThenMultipliersOfEachContact)
@@ -121,7 +114,7 @@ TEST(System, TheResidualIsForcesThenComplementarity)
   for (const int dim : {2, 3})
   {
     Hanging s(dim);
-    s.set_master_facets();
+    s.meet_values();
     std::vector<double> b = s.expected();
     for (std::size_t i = 0; i < s.scene.u->size(); ++i)
       if (s.bulk->fixed[i])
@@ -176,7 +169,7 @@ TEST(System, DirichletValuesThatAreNotThereYetCountInOtherRows)
 TEST(System, RoundingOfDirichletValuesIsNotLifted)
 {
   Hanging s(2);
-  s.set_master_facets();
+  s.meet_values();
   double most = 0;
   for (const double v : *s.scene.u)
     most = std::max(most, std::abs(v));
@@ -403,7 +396,7 @@ TEST(System, OtherFieldsComeBetweenDisplacementsAndMultipliers)
 TEST(System, DirichletRowsOfOtherFieldsAreDifferences)
 {
   Hanging s(2);
-  s.set_master_facets();
+  s.meet_values();
   const auto others
       = std::make_shared<LooseFields>(std::vector<std::size_t>{0, 2});
   s.bulk->others = others;

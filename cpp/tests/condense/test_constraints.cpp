@@ -1,18 +1,21 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include <array>
-#include <contactx/condense/multigrid.h>
-#include <gtest/gtest.h>
-
 #include "saddle.h"
-#include "status.h"
 #include "thread_ranks.h"
+#include <array>
+#include <contactx/condense/master_springs.h>
+#include <contactx/condense/multigrid.h>
+#include <contactx/condense/stiff_bodies.h>
+#include <contactx/law/normal.h>
+#include <gtest/gtest.h>
+#include <numeric>
 
 using namespace contactx;
 using namespace contactx::condense;
 using namespace contactx::mesh;
 using namespace contactx::tests;
+using enum law::Status;
 
 namespace
 {
@@ -25,7 +28,6 @@ Saddle symmetric(int gdim)
       saddle.contact(saddle.n + i, j) = -3 * saddle.contact(j, saddle.n + i);
   return saddle;
 }
-} // namespace
 
 TEST(DependentConstraints, ANodeThatIsSlaveHereAndMasterThere)
 {
@@ -278,3 +280,120 @@ TEST(Multigrid, SpringsOfWhatIsNotEliminated)
   EXPECT_THROW(elastic(elimination, nodes, soft, Column(1, 0)),
                std::invalid_argument);
 }
+
+/// Nodes 0, 1, 2 are slaves, 4, 5, 6 their masters
+class MasterSprings : public testing::TestWithParam<int>
+{
+protected:
+  static constexpr std::size_t num_nodes = 8;
+
+  std::size_t n() const { return GetParam() * num_nodes; }
+
+  Saddle saddle(std::vector<std::int8_t> status) const
+  {
+    return Saddle(GetParam(), num_nodes,
+                  {{{0, 1, 2}, {4, 5, 6}, GetParam(), std::move(status)}}, {},
+                  4);
+  }
+};
+
+/// Springs along each axis in all
+std::vector<double> sums(const std::vector<double>& springs, int gdim)
+{
+  std::vector<double> result(gdim, 0);
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    result[i % gdim] += springs[i];
+  return result;
+}
+
+TEST_P(MasterSprings, AreInAllThoseOfTheSlaves)
+{
+  const int gdim = GetParam();
+  const Saddle scene = saddle({stick, slip, open});
+  const Condensation condensed = scene.condensed();
+  std::vector<double> stiffness(n());
+  for (std::size_t i = 0; i < n(); ++i)
+    stiffness[i] = 1.0 + static_cast<double>(i % 7);
+  std::vector<double> area(n(), 0), expected(gdim, 0);
+  const Triplets& T = condensed.traction();
+  for (std::size_t e = 0; e < T.size(); ++e)
+    area[T.rows[e]] += std::abs(T.values[e]);
+  // Those of open nodes are no one's
+  for (int i = 0; i < 2 * gdim; ++i)
+    expected[i % gdim] += stiffness[i] * area[i];
+  const std::vector<double> found = master_springs(condensed, stiffness);
+  ASSERT_EQ(found.size(), n());
+  for (int k = 0; k < gdim; ++k)
+    EXPECT_NEAR(sums(found, gdim)[k], expected[k], 1e-12 * expected[k]);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    EXPECT_GE(found[i], 0);
+    const std::size_t node = i / gdim;
+    if (node < 4 or node > 6)
+    {
+      EXPECT_EQ(found[i], 0) << "displacement " << i;
+    }
+  }
+}
+
+TEST_P(MasterSprings, AreNoneWithoutStiffnessAndRefuseWhatDoesNotFit)
+{
+  const Condensation condensed = saddle({stick, slip, stick}).condensed();
+  EXPECT_EQ(master_springs(condensed, std::vector<double>(n(), 0)),
+            std::vector<double>(n(), 0));
+  EXPECT_THROW(master_springs(condensed, std::vector<double>(n() + 1)),
+               std::invalid_argument);
+}
+
+INSTANTIATE_TEST_SUITE_P(InSpace, MasterSprings, testing::Values(2, 3));
+
+using Stiff = std::vector<std::int8_t>;
+
+/// Three bodies of four nodes each; the first is slave of the second
+class StiffBodies : public testing::Test
+{
+protected:
+  static constexpr int gdim = 3;
+
+  /// Which are stiff, by stiffnesses of the bodies
+  Stiff stiff(const std::vector<double>& stiffness, std::int8_t status = stick)
+  {
+    std::vector<std::int32_t> cells(12);
+    for (std::int32_t i = 0; i < 12; ++i)
+      cells[i] = i;
+    const std::vector<std::int64_t> original(cells.begin(), cells.end());
+    const auto nodes = std::make_shared<mesh::SerialNodes>(12);
+    const mesh::Bodies bodies(cells, 4, 3, original, nodes);
+    const Saddle saddle(
+        gdim, 12, {{{0, 1, 2}, {4, 5, 6}, gdim, {status, status, status}}}, {},
+        4);
+    std::vector<double> diagonal;
+    for (std::size_t i = 0; i < saddle.n; ++i)
+      diagonal.push_back(stiffness[i / (4 * gdim)]);
+    return stiff_bodies(saddle.condensed(), bodies, diagonal);
+  }
+};
+
+TEST_F(StiffBodies, AreThoseBeyondTheWidestGap)
+{
+  // A body without contact counts as stiff
+  EXPECT_EQ(stiff({1, 1e3, 1}), (Stiff{0, 1, 1}));
+  EXPECT_EQ(stiff({1e-9, 1e-6, 1}), (Stiff{0, 1, 1}));
+  EXPECT_EQ(stiff({1, 40, 1}), (Stiff{0, 1, 1}));
+  // None where bodies are alike, or a stiff body is slave of a soft one
+  EXPECT_EQ(stiff({1, 1, 1}), (Stiff{0, 0, 0}));
+  EXPECT_EQ(stiff({1, 5, 1e6}), (Stiff{0, 0, 0}));
+  EXPECT_EQ(stiff({1e3, 1, 1}), (Stiff{0, 0, 0}));
+}
+
+TEST_F(StiffBodies, RefuseADiagonalThatDoesNotFit)
+{
+  std::vector<std::int32_t> cells{0, 1, 2, 3};
+  const std::vector<std::int64_t> original(cells.begin(), cells.end());
+  const auto nodes = std::make_shared<mesh::SerialNodes>(4);
+  const mesh::Bodies bodies(cells, 4, 1, original, nodes);
+  const Saddle saddle(gdim, 4, {{{0}, {1, 2}, gdim, {stick}}}, {}, 4);
+  EXPECT_THROW(stiff_bodies(saddle.condensed(), bodies, std::vector<double>(5)),
+               std::invalid_argument);
+}
+} // namespace
