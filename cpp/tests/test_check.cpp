@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include <contactx/check.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -9,25 +10,11 @@
 #include <vector>
 
 using namespace contactx;
+using tests::refusal;
 
 namespace
 {
 using Numbers = std::vector<std::int32_t>;
-
-/// What is said when arguments are refused; nothing if they are not.
-template <class Call>
-std::string refusal(Call call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::invalid_argument& e)
-  {
-    return e.what();
-  }
-  return "";
-}
 
 TEST(Check, Dimensions)
 {

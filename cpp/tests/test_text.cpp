@@ -26,7 +26,7 @@ TEST(Text, NumbersAreThoseOfPrintf)
     }
   EXPECT_EQ(number_text(0.27, 3), "0.27");
   EXPECT_EQ(number_text(1e-5, 6), "1e-05");
-  EXPECT_EQ(number_text(std::numeric_limits<double>::infinity(), 3), "inf");
+  EXPECT_EQ(number_text(infinity, 3), "inf");
   EXPECT_EQ(number_text(std::nan(""), 3), "nan");
   EXPECT_EQ(number_text(-std::nan(""), 3), "nan");
 }
