@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "generator.h"
+#include <contactx/search/box.h>
 #include <contactx/search/box_tree.h>
 #include <gtest/gtest.h>
 #include <set>
@@ -12,6 +13,48 @@ using namespace contactx::tests;
 
 namespace
 {
+TEST(Box, EmptyOneIsInfinitelyFar)
+{
+  EXPECT_TRUE(std::isinf(Box::empty().distance2({1, 2, 3})));
+}
+
+TEST(Box, DistanceFromEachSide)
+{
+  Box b = Box::empty();
+  b.add(Vector<3>{0, 0, 0});
+  b.add(Vector<3>{1, 2, 3});
+  EXPECT_EQ(b.distance2({0.5, 1, 1}), 0);
+  EXPECT_EQ(b.distance2({1, 2, 3}), 0);
+  EXPECT_EQ(b.distance2({-2, 1, 1}), 4);
+  EXPECT_EQ(b.distance2({3, 1, 1}), 4);
+  EXPECT_EQ(b.distance2({0.5, 5, 5}), 13);
+  EXPECT_EQ(b.distance2({-1, -2, -3}), 14);
+}
+
+TEST(Box, IsNoFartherThanWhatItHolds)
+{
+  Generator random(1);
+  for (int i = 0; i < 200; ++i)
+  {
+    Box a = Box::empty(), b = Box::empty();
+    const Vector<3> p = random.vector<3>(-1, 1), q = random.vector<3>(-1, 1);
+    a.add(p);
+    b.add(q);
+    b.add(a);
+    const Vector<3> point = random.vector<3>(-2, 2);
+    EXPECT_LE(b.distance2(point), dot(p - point, p - point));
+    EXPECT_LE(b.distance2(point), dot(q - point, q - point));
+  }
+}
+
+TEST(Box, PassesOverPointsThatAreNotNumbers)
+{
+  Box b = Box::empty();
+  b.add(Vector<3>{0, 0, 0});
+  b.add(Vector<3>{std::nan(""), 1, 0});
+  EXPECT_EQ(b.distance2({0, 2, 0}), 1);
+}
+
 std::vector<Box> random_boxes(Generator& random, int n)
 {
   std::vector<Box> boxes(n, Box::empty());
@@ -137,7 +180,7 @@ TEST(BoxTree, RefitKnowsTheMovedBoxes)
   }
 }
 
-bool set_master_facets(const Box& a, const Box& b)
+bool meet(const Box& a, const Box& b)
 {
   for (int k = 0; k < 3; ++k)
     if (not(a.lower[k] <= b.upper[k] and b.lower[k] <= a.upper[k]))
@@ -155,7 +198,7 @@ std::pair<std::multiset<std::int32_t>, int> met(const BoxTree& tree,
       [&](const Box& b)
       {
         ++looked_at;
-        return set_master_facets(b, box);
+        return meet(b, box);
       },
       [&items](std::int32_t i) { items.insert(i); });
   return {items, looked_at};
@@ -182,7 +225,7 @@ TEST(BoxTree, ForEachVisitsEachBoxThatMattersOnce)
       box.add(p + random.vector<3>(-1, 1));
       std::multiset<std::int32_t> expected;
       for (int j = 0; j < n; ++j)
-        if (set_master_facets(boxes[j], box))
+        if (meet(boxes[j], box))
           expected.insert(j);
       EXPECT_EQ(met(tree, box).first, expected);
     }

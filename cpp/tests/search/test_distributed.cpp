@@ -9,6 +9,7 @@
 #include <contactx/search/inside_test.h>
 #include <contactx/search/slave_facets.h>
 #include <gtest/gtest.h>
+#include <set>
 
 using namespace contactx;
 using namespace contactx::tests;
@@ -37,6 +38,16 @@ std::ostream& operator<<(std::ostream& out, const Answer& a)
   for (const std::int64_t n : a.facet)
     out << " " << n;
   return out;
+}
+
+/// Numbers of a facet's nodes in the mesh as it was made
+Name names(const Scene& scene, const DistributedScene& parts, std::int32_t f)
+{
+  Name name;
+  for (const std::int32_t node : scene.facets()[f])
+    name.push_back(parts.nodes.original[node]);
+  name.resize(4, -1);
+  return name;
 }
 
 Name name_of(const MasterSurface& surface, std::int32_t facet)
@@ -134,22 +145,18 @@ Scene two_sides(Generator& random, Cells cells, int gdim,
     }
     return scene;
   }
-  const Scene low = grid(6, cells, [&](double s, double t)
-                         { return Vector<3>{s, t, bottom(s, t)}; });
+  const Scene low = grid(6, cells,
+                         [&](double s, double t) {
+                           return Vector<3>{s, t, bottom(s, t)};
+                         });
   // Mirrored, so that it faces down
-  const Scene high = grid(5, cells, [&](double s, double t)
-                          { return Vector<3>{1.1 - s, t, gap + 0.1 * s * t}; });
+  const Scene high = grid(5, cells,
+                          [&](double s, double t) {
+                            return Vector<3>{1.1 - s, t, gap + 0.1 * s * t};
+                          });
   scene = low;
   num_master = low.facets().size();
-  scene.x.insert(scene.x.end(), high.x.begin(), high.x.end());
-  for (std::int32_t f = 0; f < high.facets().size(); ++f)
-  {
-    std::vector<std::int32_t> nodes(high.facets()[f].begin(),
-                                    high.facets()[f].end());
-    for (std::int32_t& node : nodes)
-      node += static_cast<std::int32_t>(low.x.size() / 3);
-    scene.facet(nodes);
-  }
+  scene.join(high);
   return scene;
 }
 
@@ -181,9 +188,7 @@ std::vector<Answer> found(const DistributedScene& scene, const Points& points,
   return answers;
 }
 
-class SurfaceOnRanks : public testing::TestWithParam<int>
-{
-};
+using SurfaceOnRanks = testing::TestWithParam<int>;
 } // namespace
 
 TEST_P(SurfaceOnRanks, FindsWhatOneRankFinds)
@@ -198,8 +203,7 @@ TEST_P(SurfaceOnRanks, FindsWhatOneRankFinds)
     {
       const Scene scene = random_scene(kind, random);
       const Points points = random_points(scene, random, 60);
-      const double reach
-          = seed == 0 ? std::numeric_limits<double>::infinity() : random(0, 1);
+      const double reach = seed == 0 ? infinity : random(0, 1);
       const auto expected
           = found(DistributedScene(scene, 1, seed, false), points, reach);
       const auto answers = found(
@@ -348,39 +352,27 @@ TEST_P(SurfaceOnRanks, LookingFindsAllFacetsInFront)
     const auto pairs = one.find(scene.x, reach, margin, true);
     EXPECT_GT(pairs.size(), 5);
     const DistributedScene parts(scene, GetParam(), seed, seed % 2);
-    const auto names = [&](std::int32_t f)
-    {
-      Name name;
-      for (const std::int32_t node : scene.facets()[f])
-        name.push_back(parts.nodes.original[node]);
-      name.resize(4, -1);
-      return name;
-    };
-    on_ranks(GetParam(),
-             [&](ThreadRanks& ranks)
-             {
-               const auto halo = parts.halo(ranks);
-               const auto own
-                   = part(parts, *halo, num_master, scene.facets().size());
-               const auto surface = surface_of(parts, halo, 0, num_master);
-               const int before = ranks.num_exchanges;
-               surface->add_facets_within(halo->now()->x, own.list(), reach,
-                                          margin);
-               EXPECT_LE(ranks.num_exchanges - before, 2);
-               std::vector<Name> expected;
-               for (std::size_t i = 0; i < pairs.size(); ++i)
-                 if (ranks.size() == 1
-                     or parts.facet_rank[num_master + pairs.slave[i]]
-                            == ranks.rank())
-                   expected.push_back(names(pairs.master[i]));
-               if (ranks.size() == 1)
-                 for (std::int32_t f = 0; f < num_master; ++f)
-                   expected.push_back(names(f));
-               std::ranges::sort(expected);
-               const auto twice = std::ranges::unique(expected);
-               expected.erase(twice.begin(), twice.end());
-               EXPECT_EQ(known(*surface), expected);
-             });
+    on_ranks(
+        GetParam(),
+        [&](ThreadRanks& ranks)
+        {
+          const auto halo = parts.halo(ranks);
+          const auto own
+              = part(parts, *halo, num_master, scene.facets().size());
+          const auto surface = surface_of(parts, halo, 0, num_master);
+          const int before = ranks.num_exchanges;
+          surface->add_facets_within(halo->now()->x, own.list(), reach, margin);
+          EXPECT_LE(ranks.num_exchanges - before, 2);
+          std::set<Name> expected;
+          for (std::size_t i = 0; i < pairs.size(); ++i)
+            if (parts.facet_rank[num_master + pairs.slave[i]] == ranks.rank())
+              expected.insert(names(scene, parts, pairs.master[i]));
+          for (std::int32_t f = 0; f < num_master; ++f)
+            if (ranks.size() == 1)
+              expected.insert(names(scene, parts, f));
+          EXPECT_EQ(known(*surface),
+                    (std::vector<Name>{expected.begin(), expected.end()}));
+        });
   }
 }
 
@@ -446,16 +438,9 @@ TEST_P(SurfaceOnRanks, SurfaceIsKnownByItsFacets)
   Generator random(6);
   const Scene scene = random_scene(Kind::grid, random);
   const DistributedScene parts(scene, GetParam(), 1, true);
-  const DistributedScene one(scene, 1, 1, true);
   std::vector<Name> all, expected;
   for (std::int32_t f = 0; f < scene.facets().size(); ++f)
-  {
-    Name name;
-    for (const std::int32_t node : scene.facets()[f])
-      name.push_back(parts.nodes.original[node]);
-    name.resize(4, -1);
-    expected.push_back(name);
-  }
+    expected.push_back(names(scene, parts, f));
   double sum = 0;
   for (const std::int32_t node : scene.nodes)
     sum += static_cast<double>(parts.nodes.original[node]);
@@ -592,18 +577,10 @@ TEST_P(SurfaceOnRanks, PointsOutsideOfAThinPlate)
   const int n = 4;
   const double thick = 0.02;
   Scene scene = flat_grid(n, Cells::quadrilaterals);
-  const Scene below = grid(n, Cells::quadrilaterals, [&](double s, double t)
-                           { return Vector<3>{1 - s, t, -thick}; });
-  const auto count = static_cast<std::int32_t>(scene.x.size() / 3);
-  scene.x.insert(scene.x.end(), below.x.begin(), below.x.end());
-  for (std::int32_t f = 0; f < below.facets().size(); ++f)
-  {
-    std::vector<std::int32_t> nodes(below.facets()[f].begin(),
-                                    below.facets()[f].end());
-    for (std::int32_t& node : nodes)
-      node += count;
-    scene.facet(nodes);
-  }
+  scene.join(grid(n, Cells::quadrilaterals,
+                  [&](double s, double t) {
+                    return Vector<3>{1 - s, t, -thick};
+                  }));
   for (const bool closed : {true, false})
     for (const bool scattered : {true, false})
     {

@@ -19,13 +19,9 @@ using Indices = std::vector<std::int32_t>;
 Finder finder_of(const Pairing& pairing, const std::vector<double>& x)
 {
   const auto facets = pairing.master().facets();
-  std::vector<std::int32_t> offsets{0}, nodes;
-  for (std::int32_t f = 0; f < facets.size(); ++f)
-  {
-    nodes.insert(nodes.end(), facets[f].begin(), facets[f].end());
-    offsets.push_back(nodes.size());
-  }
-  Finder finder(offsets, nodes, pairing.master().gdim());
+  Finder finder({facets.offsets.begin(), facets.offsets.end()},
+                {facets.nodes.begin(), facets.nodes.end()},
+                pairing.master().gdim());
   finder.refit(x);
   return finder;
 }
@@ -58,8 +54,8 @@ TEST(Finder, WithoutNormalKnowsNoSides)
 {
   SlidingSegment s({{0, 0}, {1, 0}, {2, 0}});
   const Finder finder = finder_of(s.pairing, s.x);
-  const double far = std::numeric_limits<double>::infinity();
-  EXPECT_NEAR(norm(finder.find(s.x, {1, -2, 0}, {}, far).nearest->d), 2, 1e-15);
+  EXPECT_NEAR(norm(finder.find(s.x, {1, -2, 0}, {}, infinity).nearest->d), 2,
+              1e-15);
 }
 
 TEST(Finder, NearestMayLieBeyondTheEdge)
@@ -110,12 +106,10 @@ TEST(PairingInHalves, IsPairing)
     std::int32_t changed = 0;
     for (const std::int32_t i : halves.seek(x, 1))
     {
-      Vector<3> p, n;
       const auto slave = halves.slaves()[i];
-      std::copy_n(x.begin() + 3 * slave, 3, p.begin());
-      std::copy_n(normals.begin() + 3 * slave, 3, n.begin());
-      changed += halves.accept_projection(i, finder.find(x, p, n, 1).selected,
-                                          x, 1, true);
+      const auto found = finder.find(x, vector_at(x, slave, 3),
+                                     vector_at(normals, slave, 3), 1);
+      changed += halves.accept_projection(i, found.selected, x, 1, true);
     }
     EXPECT_EQ(whole.update(x, 1, closed), changed);
     EXPECT_EQ(whole.facet(), halves.facet());
@@ -209,14 +203,11 @@ TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
     const Surface surface = s.scene.surface();
     Pairing pairing = s.pairing();
     pairing.update(s.scene.x, 1, std::vector<std::int8_t>(90, 0));
-    std::vector<std::int32_t> all(90);
-    for (int k = 0; k < 90; ++k)
-      all[k] = k;
     const Finder finder = finder_of(pairing, s.scene.x);
     const auto normals
         = geometry::nodal_normals({s.offsets, s.nodes}, s.scene.x, 3);
     int interior = 0;
-    for (int k : all)
+    for (int k = 0; k < 90; ++k)
     {
       ASSERT_GE(pairing.facet()[k], 0);
       if (pairing.feature()[k] != geometry::interior)
@@ -230,10 +221,8 @@ TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
       // Behind a valley a pair may be farther out
       EXPECT_TRUE(q->excess <= geometry::facet_margin or q->gap < 0);
       const std::int32_t slave = pairing.slaves()[k];
-      Vector<3> n;
-      std::copy_n(normals.begin() + 3 * slave, 3, n.begin());
-      const FoundPlace found
-          = finder.find(s.scene.x, s.scene.point(slave), n, 1);
+      const FoundPlace found = finder.find(s.scene.x, s.scene.point(slave),
+                                           vector_at(normals, slave, 3), 1);
       EXPECT_NEAR(q->gap, found.selected->gap, 1e-15);
     }
     EXPECT_GT(interior, 60);
