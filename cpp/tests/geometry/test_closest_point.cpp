@@ -3,6 +3,8 @@
 
 #include "facets.h"
 #include <contactx/geometry/closest_point.h>
+#include <gtest/gtest.h>
+#include <limits>
 
 using namespace contactx;
 using namespace contactx::geometry;
@@ -10,10 +12,81 @@ using namespace contactx::tests;
 
 namespace
 {
+/// @brief Distance from a facet by sampling it, with a finer grid around each
+/// of the best samples of the last one. No better than 1e-9 in xi, so that
+/// the distance has about nine digits near the facet.
 template <class F>
-class ClosestPointOn : public ::testing::Test
+double sampled_distance(const geometry::Nodes<F>& x, const Vector<F::gdim>& p)
 {
-};
+  constexpr int n = 24;
+  double best = infinity;
+  // The coarse grid's cells are searched on their own, for a warped facet may
+  // have several points of least distance
+  for (int i = 0; i <= n; i += 4)
+    for (int j = 0; j <= n; j += 4)
+    {
+      geometry::Local<F> centre{double(i) / n, double(j) / n};
+      for (double h = 1. / 8; h > 1e-10; h *= 0.6)
+      {
+        double least = infinity;
+        const geometry::Local<F> around = centre;
+        for (double a : {-h, 0.0, h})
+          for (double b : {-h, 0.0, h})
+          {
+            geometry::Local<F> xi{std::clamp(around[0] + a, 0.0, 1.0),
+                                  std::clamp(around[1] + b, 0.0, 1.0)};
+            if (F::nodes == 3 and xi[0] + xi[1] > 1)
+              xi = (1 / (xi[0] + xi[1])) * xi;
+            const double d = norm(p - position<F>(x, xi));
+            if (d < least)
+            {
+              least = d;
+              centre = xi;
+            }
+          }
+        best = std::min(best, least);
+      }
+    }
+  return best;
+}
+
+/// @brief Distance from a triangle in extended precision, for slivers.
+inline double long_distance(const geometry::Nodes<geometry::Triangle>& x,
+                            const Vector<3>& p)
+{
+  using Real = long double;
+  using Long = std::array<Real, 3>;
+  const auto minus = [](const auto& a, const auto& b)
+  { return Long{Real(a[0]) - b[0], Real(a[1]) - b[1], Real(a[2]) - b[2]}; };
+  const auto product = [](const Long& a, const Long& b)
+  { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto combined = [](const Long& d, Real s, const Long& a)
+  { return Long{d[0] - s * a[0], d[1] - s * a[1], d[2] - s * a[2]}; };
+
+  Real best = std::numeric_limits<Real>::infinity();
+  for (const auto& [i, j] : geometry::Triangle::edges)
+  {
+    const Long e = minus(x[j], x[i]), d = minus(p, x[i]);
+    const Real s = std::clamp(product(d, e) / product(e, e), Real(0), Real(1));
+    const Long r = combined(d, s, e);
+    best = std::min(best, product(r, r));
+  }
+  const Long a = minus(x[1], x[0]), d = minus(p, x[0]);
+  Long b = minus(x[2], x[0]);
+  const Real shear = product(a, b) / product(a, a);
+  b = combined(b, shear, a);
+  const Real t = product(d, b) / product(b, b);
+  const Real s = product(d, a) / product(a, a) - shear * t;
+  if (s >= 0 and t >= 0 and s + t <= 1)
+  {
+    const Long r = combined(combined(d, s + shear * t, a), t, b);
+    best = std::min(best, product(r, r));
+  }
+  return std::sqrt(best);
+}
+
+template <class>
+using ClosestPointOn = testing::Test;
 TYPED_TEST_SUITE(ClosestPointOn, FacetTypes);
 
 constexpr std::array offsets{0.0, 1e-12, 1e-4, 1.0, 1000.0};
@@ -149,5 +222,292 @@ TEST(ClosestPoint, OnASharedEdgeIsTheSameForBothFacets)
     expect_tie<Triangle>({b, a, left}, {a, b, right}, p);
     expect_tie<Quadrilateral>({a, b, left, back}, {b, right, a}, p);
   }
+}
+
+template <class>
+using Project = testing::Test;
+TYPED_TEST_SUITE(Project, FacetTypes);
+
+/// Largest cosine between the tangents and the way to the point, measured
+/// with the way from the facet's first node.
+template <class F>
+double obliqueness(const Nodes<F>& x, const Vector<F::gdim>& p,
+                   const Local<F>& xi)
+{
+  const auto d = p - position<F>(x, xi);
+  double largest = 0;
+  for (const auto& t : tangents<F>(x, xi))
+    largest = std::max(largest,
+                       std::abs(dot(d, t)) / (norm(t) * (1 + norm(p - x[0]))));
+  return largest;
+}
+
+TYPED_TEST(Project, IsOrthogonalBeyondTheEdgesAndFarAway)
+{
+  using F = TypeParam;
+  Generator random(1);
+  for (double height : {0.0, 1e-12, 1e-4, 0.5, -0.5, 1e3, 1e6})
+    for (int i = 0; i < 500; ++i)
+    {
+      // From afar one of several points of a warped facet would be found
+      const auto x = random_facet<F>(random, height > 1 ? 0 : 0.1);
+      const Local<F> foot = random.vector<F::tdim>(-0.5, 1.5);
+      const auto p = position<F>(x, foot) + height * frame<F>(x, foot).n;
+      Local<F> xi = projection_start<F>(x, p);
+      ASSERT_TRUE(project<F>(x, p, xi)) << height;
+      EXPECT_LT(obliqueness<F>(x, p, xi), 1e-13) << height;
+    }
+}
+
+TYPED_TEST(Project, ForgetsItsStart)
+{
+  using F = TypeParam;
+  Generator random(3);
+  for (int i = 0; i < 500; ++i)
+  {
+    const auto x = random_facet<F>(random, 0.1);
+    const Local<F> foot = random.vector<F::tdim>(-0.05, 1.05);
+    const auto p
+        = position<F>(x, foot) + random(-0.3, 0.3) * frame<F>(x, foot).n;
+    Local<F> xi = foot + random.vector<F::tdim>(-0.2, 0.2);
+    ASSERT_TRUE(project<F>(x, p, xi));
+    EXPECT_LT(norm(xi - foot), 1e-12);
+  }
+}
+
+TYPED_TEST(Project, KeepsItsDigitsFarFromTheOrigin)
+{
+  using F = TypeParam;
+  Generator random(4);
+  for (double distance : {1e3, 1e6, 1e9, 1e12})
+    for (int i = 0; i < 200; ++i)
+    {
+      // Coordinates that the translation does not round
+      auto x = flat_facet<F>(random);
+      for (auto& node : x)
+        for (double& c : node)
+          c = std::round(64 * c) / 64;
+      auto p = position<F>(x, inner_point<F>(random));
+      for (double& c : p)
+        c = std::round(64 * c) / 64;
+      Local<F> near = projection_start<F>(x, p);
+      ASSERT_TRUE(project<F>(x, p, near));
+      Vector<F::gdim> shift;
+      shift.fill(distance);
+      for (auto& node : x)
+        node = node + shift;
+      Local<F> xi = projection_start<F>(x, p + shift);
+      ASSERT_TRUE(project<F>(x, p + shift, xi));
+      EXPECT_LT(norm(xi - near), 1e-13);
+    }
+}
+
+TYPED_TEST(Project, TellsThatThereIsNone)
+{
+  using F = TypeParam;
+  Nodes<F> x; // no area
+  for (auto& node : x)
+    node.fill(1);
+  Local<F> xi{};
+  EXPECT_FALSE(project<F>(x, {}, xi));
+  Generator random(5);
+  Vector<F::gdim> p{};
+  p[0] = std::nan("");
+  xi = {};
+  EXPECT_FALSE(project<F>(flat_facet<F>(random), p, xi));
+}
+
+template <class>
+using Degenerate = testing::Test;
+TYPED_TEST_SUITE(Degenerate, FacetTypes);
+
+TYPED_TEST(Degenerate, FacetThatIsAPoint)
+{
+  using F = TypeParam;
+  Generator random(1);
+  Nodes<F> x;
+  x.fill(random.vector<F::gdim>(-1, 1));
+  const auto p = random.vector<F::gdim>(-1, 1);
+  const auto c = closest_point<F>(x, p);
+  EXPECT_NEAR(std::sqrt(c.distance2), norm(p - x[0]), 1e-15);
+  EXPECT_LE(F::excess(c.xi), 0);
+}
+
+TYPED_TEST(Degenerate, FacetThatIsALine)
+{
+  using F = TypeParam;
+  Generator random(2);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto a = random.vector<F::gdim>(-1, 1);
+    const auto b = random.vector<F::gdim>(-1, 1);
+    Nodes<F> x;
+    for (auto& node : x)
+      node = a + random(0, 0.9) * (b - a);
+    x.front() = a;
+    x.back() = b;
+    const auto p = random.vector<F::gdim>(-2, 2);
+    const auto e = b - a;
+    const double s = std::clamp(dot(p - a, e) / dot(e, e), 0.0, 1.0);
+    const auto c = closest_point<F>(x, p);
+    EXPECT_NEAR(std::sqrt(c.distance2), norm(p - a - s * e), 1e-13);
+    EXPECT_LE(F::excess(c.xi), 1e-12);
+  }
+}
+
+TEST(DegenerateQuadrilateral, WithAnEdgeWithoutLengthIsATriangle)
+{
+  Generator random(3);
+  for (int i = 0; i < 500; ++i)
+  {
+    const auto t = random_facet<Triangle>(random);
+    const Nodes<Quadrilateral> x{t[0], t[1], t[2], t[2]};
+    const auto p = t[0] + random.vector<3>(-2, 2);
+    const auto c = closest_point<Quadrilateral>(x, p);
+    EXPECT_NEAR(std::sqrt(c.distance2), long_distance(t, p), 1e-13);
+    EXPECT_LE(Quadrilateral::excess(c.xi), 1e-12);
+  }
+}
+
+/// Random slivers of an aspect ratio, long in any of the three directions.
+void compare_slivers(double aspect, unsigned seed)
+{
+  SCOPED_TRACE(aspect);
+  Generator random(seed);
+  // The interior reaches 1e-12 beyond the edges; the tangents are as close to
+  // parallel as the aspect says
+  const double tolerance = 3e-12 + 1e-15 * aspect;
+  for (int i = 0; i < 3000; ++i)
+  {
+    Nodes<Triangle> x{
+        {{0, 0, 0}, {1, 0, 0}, {random(-0.5, 1.5), 1 / aspect, 0}}};
+    std::rotate(x.begin(), x.begin() + i % 3, x.end());
+    const Motion<3> motion(random, 1);
+    const auto xm = motion(x);
+    const double height = std::pow(10, random(-9, 1));
+    const auto p = motion(position<Triangle>(x, random.vector<2>(-0.5, 1))
+                          + Vector<3>{0, 0, height});
+    const auto c = closest_point<Triangle>(xm, p);
+    const double distance = long_distance(xm, p);
+    EXPECT_NEAR(std::sqrt(c.distance2), distance, tolerance);
+    EXPECT_NEAR(norm(p - position<Triangle>(xm, c.xi)), distance, tolerance);
+  }
+}
+
+TEST(Sliver, OfAnyAspectIsMeasuredToRounding)
+{
+  compare_slivers(1e2, 4);
+  compare_slivers(1e4, 5);
+  compare_slivers(1e6, 6);
+}
+
+TEST(Sliver, QuadrilateralIsTwoTriangles)
+{
+  Generator random(7);
+  for (double aspect : {1e2, 1e4, 1e6})
+    for (int i = 0; i < 1000; ++i)
+    {
+      const double w = 1 / aspect, shear = random(-0.3, 0.3);
+      const Nodes<Quadrilateral> flat{
+          {{0, 0, 0}, {1, 0, 0}, {shear, w, 0}, {1 + shear, w, 0}}};
+      const Motion<3> motion(random, 1);
+      const auto x = motion(flat);
+      const double height = std::pow(10, random(-9, 1));
+      const auto p
+          = motion(position<Quadrilateral>(flat, random.vector<2>(-0.5, 1.5))
+                   + Vector<3>{0, 0, height});
+      const double distance = std::min(long_distance({x[0], x[1], x[2]}, p),
+                                       long_distance({x[1], x[3], x[2]}, p));
+      const auto c = closest_point<Quadrilateral>(x, p);
+      EXPECT_NEAR(std::sqrt(c.distance2), distance, 3e-12);
+    }
+}
+
+TYPED_TEST(Degenerate, PointThatIsNotANumberHasNoDistance)
+{
+  using F = TypeParam;
+  Generator random(8);
+  for (int k = 0; k < F::gdim; ++k)
+  {
+    Vector<F::gdim> p{};
+    p[k] = std::nan("");
+    const auto c = closest_point<F>(random_facet<F>(random), p);
+    EXPECT_TRUE(std::isinf(c.distance2));
+  }
+}
+
+TEST(Sliver, KeepsItsWidthHoweverLongItIs)
+{
+  // The second node is one from the third, which is the point itself
+  for (const double length : {1e4, 1e6, 2e7, 1e9})
+  {
+    const Nodes<Triangle> x{{{0.75, 0.75, length}, {0, -1, -1}, {-1, -1, -1}}};
+    const auto c = closest_point<Triangle>(x, x[2]);
+    EXPECT_LT(std::sqrt(c.distance2), 1e-15 * length);
+  }
+}
+
+using F = Quadrilateral;
+
+/// Compare with the sampled distance, for random points near warped facets.
+void compare(double warp, double height, unsigned seed)
+{
+  SCOPED_TRACE(testing::Message() << "warp " << warp << ", height " << height);
+  Generator random(seed);
+  for (int i = 0; i < 300; ++i)
+  {
+    const auto x = random_facet<F>(random, warp);
+    const Local<F> foot = random.vector<2>(-0.5, 1.5);
+    const auto p
+        = position<F>(x, foot)
+          + random(-height, height) * frame<F>(x, random.vector<2>(0, 1)).n;
+    const auto c = closest_point<F>(x, p);
+    const double distance = std::sqrt(c.distance2);
+    EXPECT_NEAR(distance, sampled_distance<F>(x, p), 2e-9 * (1 + distance));
+    EXPECT_NEAR(norm(p - position<F>(x, c.xi)), distance, 1e-13);
+    EXPECT_LE(F::excess(c.xi), 1e-12);
+  }
+}
+
+TEST(WarpedQuadrilateral, DistanceIsThatOfSamples)
+{
+  compare(0.01, 1, 1);
+  compare(0.2, 0.5, 2);
+  compare(0.2, 20, 3);
+  compare(0.7, 1, 4); // twisted by a right angle
+}
+
+TEST(WarpedQuadrilateral, FeatureTellsWhereThePointIs)
+{
+  Generator random(5);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const auto x = random_facet<F>(random, 0.2);
+    const auto p
+        = position<F>(x, random.vector<2>(-0.5, 1.5)) + random.vector<3>(-1, 1);
+    const auto c = closest_point<F>(x, p);
+    int edges = 0; // that the point lies on
+    for (double s : c.xi)
+      edges += std::min(std::abs(s), std::abs(s - 1)) < 1e-12;
+    const int expected = c.feature == interior       ? 0
+                         : c.feature <= F::num_edges ? 1
+                                                     : 2;
+    EXPECT_EQ(edges, expected);
+  }
+}
+
+TEST(WarpedQuadrilateral, NodeOverTheMiddleOfASaddle)
+{
+  const Nodes<F> x{{{0, 0, 0.1}, {1, 0, -0.1}, {0, 1, -0.1}, {1, 1, 0.1}}};
+  for (double h : {-1.0, -1e-9, 0.0, 1e-9, 1.0})
+  {
+    const auto c = closest_point<F>(x, {0.5, 0.5, h});
+    EXPECT_EQ(c.feature, interior);
+    EXPECT_NEAR(std::sqrt(c.distance2), std::abs(h), 1e-15);
+  }
+  // Beyond the centre of curvature the middle is no minimum any more
+  const auto c = closest_point<F>(x, {0.5, 0.5, 10});
+  EXPECT_NE(c.feature, interior);
+  EXPECT_NEAR(c.distance2, 9.9 * 9.9 + 0.5, 1e-12);
 }
 } // namespace

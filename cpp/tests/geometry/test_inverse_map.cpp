@@ -3,9 +3,9 @@
 
 #include "facing.h"
 #include <contactx/geometry/inverse_map.h>
+#include <contactx/geometry/projection_plane.h>
 
 using namespace contactx;
-using namespace contactx::geometry;
 using namespace contactx::geometry;
 using namespace contactx::tests;
 
@@ -43,90 +43,54 @@ Flat<Quadrilateral> kite(double c, double d)
   return {{{0, 0}, {1, 0}, {0, 1}, {1 + c, 1 + d}}};
 }
 
-template <class F>
-class InverseMapOf : public ::testing::Test
-{
-};
+template <class>
+using InverseMapOf = testing::Test;
 TYPED_TEST_SUITE(InverseMapOf, FacetTypes);
 
-TYPED_TEST(InverseMapOf, GivesBackLocalCoordinates)
+TYPED_TEST(InverseMapOf, GivesBackLocalCoordinatesOfAllSizes)
 {
   using F = TypeParam;
   Generator random(1);
-  for (int i = 0; i < 500; ++i)
-  {
-    const auto r = random_flat<F>(random);
-    const auto xi = inner_point<F>(random);
-    const auto s = InverseMap<F>(r).at(combined<F>(F::shape(xi), r));
-    EXPECT_LT(norm(s.xi - xi), 1e-13);
-    EXPECT_LT(norm(s.N - F::shape(xi)), 1e-13);
-  }
+  for (const double size : {1., 1e-6, 1e-3, 1e6})
+    for (int i = 0; i < 500; ++i)
+    {
+      auto r = random_flat<F>(random);
+      for (auto& p : r)
+        p = size * p;
+      const InverseMap<F> map(r);
+      const auto xi = inner_point<F>(random);
+      const auto s = map.at(combined<F>(F::shape(xi), r));
+      const double tolerance = size == 1 ? 1e-13 : 1e-12;
+      EXPECT_LT(norm(s.xi - xi), tolerance) << size;
+      EXPECT_LT(norm(s.N - F::shape(xi)), tolerance) << size;
+      for (int l = 0; l < F::nodes; ++l)
+        EXPECT_LT(norm(map.at(r[l]).xi - F::vertices[l]), tolerance) << size;
+    }
 }
 
-TYPED_TEST(InverseMapOf, KnowsItsNodes)
-{
-  using F = TypeParam;
-  Generator random(2);
-  for (int i = 0; i < 100; ++i)
-  {
-    const auto r = random_flat<F>(random);
-    const InverseMap<F> map(r);
-    for (int l = 0; l < F::nodes; ++l)
-      EXPECT_LT(norm(map.at(r[l]).xi - F::vertices[l]), 1e-13);
-  }
-}
-
-TYPED_TEST(InverseMapOf, InterpolatesThePlane)
+TYPED_TEST(InverseMapOf, InterpolatesThePlaneWithItsSlopesAndJacobian)
 {
   using F = TypeParam;
   Generator random(3);
+  const double h = 1e-5;
   for (int i = 0; i < 200; ++i)
   {
     const auto r = random_flat<F>(random);
-    const auto p = combined<F>(F::shape(inner_point<F>(random)), r);
-    const auto s = InverseMap<F>(r).at(p);
+    const InverseMap<F> map(r);
+    const auto xi = inner_point<F>(random);
+    const auto p = combined<F>(F::shape(xi), r);
+    const auto s = map.at(p);
     EXPECT_LT(norm(combined<F>(s.N, r) - p), 1e-13);
     for (int k = 0; k < F::tdim; ++k)
     {
       Local<F> e{};
       e[k] = 1;
       EXPECT_LT(norm(combined<F>(s.slope[k], r) - e), 1e-12);
-    }
-  }
-}
-
-TYPED_TEST(InverseMapOf, SlopesAreDifferenceQuotients)
-{
-  using F = TypeParam;
-  Generator random(4);
-  const double h = 1e-5;
-  for (int i = 0; i < 200; ++i)
-  {
-    const auto r = random_flat<F>(random);
-    const InverseMap<F> map(r);
-    const auto p = combined<F>(F::shape(inner_point<F>(random)), r);
-    const auto s = map.at(p);
-    for (int k = 0; k < F::tdim; ++k)
-    {
-      Local<F> e{};
-      e[k] = h;
       const auto difference
-          = (1 / (2 * h)) * (map.at(p + e).N - map.at(p - e).N);
+          = (1 / (2 * h)) * (map.at(p + h * e).N - map.at(p - h * e).N);
       EXPECT_LT(norm(difference - s.slope[k]), 1e-7);
     }
-  }
-}
-
-TYPED_TEST(InverseMapOf, JacobianIsThatOfTheMap)
-{
-  using F = TypeParam;
-  Generator random(5);
-  for (int i = 0; i < 200; ++i)
-  {
-    const auto r = random_flat<F>(random);
-    const auto xi = inner_point<F>(random);
     const auto dN = F::derivative(xi);
-    const auto s = InverseMap<F>(r).at(combined<F>(F::shape(xi), r));
     const auto t = combined<F>(dN[0], r);
     double det = t[0];
     if constexpr (F::tdim == 2)
@@ -138,23 +102,7 @@ TYPED_TEST(InverseMapOf, JacobianIsThatOfTheMap)
   }
 }
 
-TYPED_TEST(InverseMapOf, IsTheSameForAllSizes)
-{
-  using F = TypeParam;
-  Generator random(6);
-  for (const double size : {1e-6, 1e-3, 1e6})
-    for (int i = 0; i < 50; ++i)
-    {
-      auto r = random_flat<F>(random);
-      for (auto& p : r)
-        p = size * p;
-      const auto xi = inner_point<F>(random);
-      const auto s = InverseMap<F>(r).at(combined<F>(F::shape(xi), r));
-      EXPECT_LT(norm(s.xi - xi), 1e-12);
-    }
-}
-
-TEST(Distortion, IsNoneOfParallelograms)
+TEST(Distortion, IsNoneOfParallelogramsAndNotChangedByAffineMaps)
 {
   Generator random(7);
   for (int i = 0; i < 100; ++i)
@@ -163,8 +111,15 @@ TEST(Distortion, IsNoneOfParallelograms)
     const auto a = random.vector<2>(-1, 1), b = random.vector<2>(-1, 1);
     if (std::abs(a[0] * b[1] - a[1] * b[0]) < 0.1)
       continue;
-    const Flat<Quadrilateral> r{o, o + a, o + b, o + a + b};
-    EXPECT_LT(InverseMap<Quadrilateral>(r).distortion(), 1e-14);
+    EXPECT_LT(
+        InverseMap<Quadrilateral>({o, o + a, o + b, o + a + b}).distortion(),
+        1e-14);
+    const auto r = random_flat<Quadrilateral>(random);
+    Flat<Quadrilateral> q;
+    for (int l = 0; l < 4; ++l)
+      q[l] = r[l][0] * a + r[l][1] * b;
+    EXPECT_NEAR(InverseMap<Quadrilateral>(q).distortion(),
+                InverseMap<Quadrilateral>(r).distortion(), 1e-12);
   }
   EXPECT_EQ(InverseMap<Triangle>({{{0, 0}, {3, 1}, {1, 2}}}).distortion(), 0);
   EXPECT_EQ(InverseMap<Segment>({{{2}, {1}}}).distortion(), 0);
@@ -178,23 +133,6 @@ TEST(Distortion, IsTheTwistInUnitsOfTheTangents)
     const Flat<Quadrilateral> r{
         {{-1 - c, -1}, {1 + c, -1}, {-1 + c, 1}, {1 - c, 1}}};
     EXPECT_NEAR(InverseMap<Quadrilateral>(r).distortion(), 2 * c, 1e-14);
-  }
-}
-
-TEST(Distortion, IsNotChangedByAffineMaps)
-{
-  Generator random(8);
-  for (int i = 0; i < 100; ++i)
-  {
-    const auto r = random_flat<Quadrilateral>(random);
-    const auto a = random.vector<2>(-1, 1), b = random.vector<2>(-1, 1);
-    if (std::abs(a[0] * b[1] - a[1] * b[0]) < 0.1)
-      continue;
-    Flat<Quadrilateral> q;
-    for (int l = 0; l < 4; ++l)
-      q[l] = r[l][0] * a + r[l][1] * b;
-    EXPECT_NEAR(InverseMap<Quadrilateral>(q).distortion(),
-                InverseMap<Quadrilateral>(r).distortion(), 1e-12);
   }
 }
 
@@ -230,4 +168,112 @@ TEST(DistortedQuadrilateral, ThatIsATriangleIsInvertedOffItsTip)
       EXPECT_LT(norm(map.at(p).xi - xi), 1e-12);
     }
 }
+
+/// A unit vector on the outer side of a facet, up to 70 degrees off its normal.
+template <class F>
+Vector<F::gdim> oblique(const Nodes<F>& x, Generator& random)
+{
+  const auto n = frame<F>(x, plane_origin<F>()).n;
+  auto v = random.unit<F::gdim>();
+  while (dot(v, n) < 0.35)
+    v = random.unit<F::gdim>();
+  return v;
+}
+
+/// Point of a plane's coordinates and height.
+template <class F>
+Vector<F::gdim> point_of(const ProjectionPlane<F>& plane, const Local<F>& r,
+                         double height)
+{
+  auto p = plane.origin + height * plane.n;
+  for (int a = 0; a < F::tdim; ++a)
+    p = p + r[a] * plane.t[a];
+  return p;
+}
+
+template <class>
+using PlaneOf = testing::Test;
+TYPED_TEST_SUITE(PlaneOf, FacetTypes);
+
+TYPED_TEST(PlaneOf, GivesBackCoordinatesAndHeightAndTouchesTheFacet)
+{
+  using F = TypeParam;
+  Generator random(1);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto x = random_facet<F>(random);
+    const auto r = random.vector<F::tdim>(-2, 2);
+    const double height = random(-2, 2);
+    const ProjectionPlane<F> upright(x);
+    for (const auto& plane :
+         {upright, ProjectionPlane<F>(x, oblique<F>(x, random))})
+    {
+      const auto p = point_of(plane, r, height);
+      EXPECT_LT(norm(plane.project(p) - r), 1e-13);
+      EXPECT_NEAR(plane.height(p), height, 1e-13);
+    }
+    const auto frame = geometry::frame<F>(x, plane_origin<F>());
+    EXPECT_LT(norm(upright.origin - position<F>(x, plane_origin<F>())), 1e-15);
+    EXPECT_EQ(upright.n, frame.n);
+    EXPECT_EQ(upright.t, frame.t);
+    // A warped quadrilateral is as far above its centre's plane as below it
+    double sum = 0;
+    for (const auto& p : x)
+      sum += upright.height(p);
+    EXPECT_NEAR(sum, 0, 1e-14);
+  }
+}
+
+TYPED_TEST(PlaneOf, HasTheNodesOfAnAffineFacetAtTheirLocalCoordinates)
+{
+  using F = TypeParam;
+  Generator random(2);
+  for (int i = 0; i < 100; ++i)
+  {
+    auto x = random_facet<F>(random);
+    if constexpr (F::nodes == 4)
+      x[3] = x[1] + x[2] - x[0];
+    const ProjectionPlane<F> plane(x, oblique<F>(x, random));
+    const auto r = project<F>(plane, x);
+    for (int l = 0; l < F::nodes; ++l)
+    {
+      EXPECT_LT(norm(r[l] - (F::vertices[l] - plane_origin<F>())), 1e-13);
+      EXPECT_NEAR(plane.height(x[l]), 0, 1e-14);
+    }
+  }
+}
+
+TYPED_TEST(PlaneOf, ProjectsAlongItsDirectionAndMovesWithItsFacet)
+{
+  using F = TypeParam;
+  Generator random(4);
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto x = random_facet<F>(random);
+    const auto direction = oblique<F>(x, random);
+    const ProjectionPlane<F> plane(x, direction), upright(x);
+    EXPECT_EQ(plane.n, direction);
+    const auto p = random.vector<F::gdim>(-2, 2);
+    const double step = random(-1, 1);
+    const auto q = p + step * direction;
+    EXPECT_LT(norm(plane.project(q) - plane.project(p)), 1e-13);
+    EXPECT_NEAR(plane.height(q) - plane.height(p), step, 1e-13);
+    // It is the same plane: where the ray meets it, both agree
+    const auto foot = p - plane.height(p) * direction;
+    EXPECT_NEAR(upright.height(foot), 0, 1e-13);
+    EXPECT_LT(norm(upright.project(foot) - plane.project(p)), 1e-12);
+
+    const Motion<F::gdim> motion(random, 3);
+    const ProjectionPlane<F> moved(motion(x), motion.rotate(direction));
+    EXPECT_LT(norm(moved.project(motion(p)) - plane.project(p)), 1e-12);
+    EXPECT_NEAR(moved.height(motion(p)), plane.height(p), 1e-12);
+    // Along the normal itself, and from behind
+    const ProjectionPlane<F> same(x, upright.n), behind(turned<F>(x));
+    EXPECT_LT(norm(same.project(p) - upright.project(p)), 1e-13);
+    EXPECT_NEAR(same.height(p), upright.height(p), 1e-14);
+    EXPECT_LT(norm(upright.n + behind.n), 1e-14);
+    EXPECT_NEAR(behind.height(p), -upright.height(p), 1e-13);
+  }
+}
+
 } // namespace

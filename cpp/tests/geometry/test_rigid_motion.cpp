@@ -6,27 +6,21 @@
 
 using namespace contactx;
 using namespace contactx::audit;
+using namespace contactx::geometry;
 using namespace contactx::tests;
 
 namespace
 {
-Vector<3> first(const std::vector<double>& x, int gdim)
+RigidMotion fitted(const MovingScene& s)
 {
-  Vector<3> p{};
-  std::copy_n(x.begin(), gdim, p.begin());
-  return p;
-}
-
-geometry::RigidMotion fitted(const MovingScene& s)
-{
-  const Vector<3> a = first(s.facets.x, s.gdim()), b = first(s.x1, s.gdim());
-  return geometry::rigid_motion(
+  const Vector<3> a = s.facets.point(0), b = vector_at(s.x1, 0, s.gdim());
+  return rigid_motion(
       moments(s.facets.facets(), s.facets.x, s.x1, s.gdim(), a, b), s.gdim(), a,
       b);
 }
 
 template <int D>
-double error(const geometry::RigidMotion& motion, const MovingScene& s)
+double error(const RigidMotion& motion, const MovingScene& s)
 {
   double most = 0;
   for (std::size_t i = 0; i < s.x1.size(); i += D)
@@ -75,15 +69,12 @@ TEST(RigidMotion, IsFoundForEveryTurn)
 {
   finds_every_turn<2>({1, 1, 0});
   finds_every_turn<3>({1, 1, 1});
-}
-
-TEST(RigidMotion, OfAFlatSurfaceIsNoReflection)
-{
+  // Of a flat surface it is no reflection
   finds_every_turn<3>({1, 1, 0});
   finds_every_turn<3>({1, 1e-3, 0});
 }
 
-void expect_translation(const geometry::RigidMotion& motion)
+void expect_translation(const RigidMotion& motion)
 {
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
@@ -118,7 +109,7 @@ TEST(RigidMotion, OfPartsIsThatOfTheSum)
       = moments({high, f.nodes.subspan(low.back())}, s.facets.x, s.x1, 3, a, b);
   for (std::size_t k = 0; k < sum.size(); ++k)
     sum[k] += more[k];
-  EXPECT_LT(error<3>(geometry::rigid_motion(sum, 3, a, b), s), 1e-12);
+  EXPECT_LT(error<3>(rigid_motion(sum, 3, a, b), s), 1e-12);
 }
 
 TEST(RigidMotion, IsNearestToThatOfADeformedSurface)
@@ -130,7 +121,7 @@ TEST(RigidMotion, IsNearestToThatOfADeformedSurface)
     s.node(p, {-0.5 * p[1], 2 * p[0], 0});
   for (int i = 0; i < 4; ++i)
     s.facets.facet({i, (i + 1) % 4});
-  const geometry::RigidMotion motion = fitted(s);
+  const RigidMotion motion = fitted(s);
   EXPECT_NEAR(motion.rotation[1][0], 1, 1e-15);
   EXPECT_NEAR(motion.rotation[0][0], 0, 1e-15);
 }
@@ -149,7 +140,7 @@ TEST(RigidMotion, IsATranslationWherePartsTurnAgainstEachOther)
       for (int k = 0; k < 4; ++k)
         s.facets.facet(gdim == 2 ? std::vector{i + k, i + (k + 1) % 4}
                                  : std::vector{i, i + 1, i + 2, i + 3});
-    const geometry::RigidMotion motion = fitted(s);
+    const RigidMotion motion = fitted(s);
     expect_translation(motion);
     EXPECT_NEAR(motion.after[0] - motion.before[0], 5, 1e-14);
   }
@@ -157,8 +148,7 @@ TEST(RigidMotion, IsATranslationWherePartsTurnAgainstEachOther)
 
 TEST(RigidMotion, OfNothingIsNone)
 {
-  const geometry::RigidMotion motion
-      = geometry::rigid_motion({}, 3, {1, 2, 3}, {1, 2, 3});
+  const RigidMotion motion = rigid_motion({}, 3, {1, 2, 3}, {1, 2, 3});
   EXPECT_EQ(motion.moved_back<3>({4, 5, 6}), (Vector<3>{4, 5, 6}));
 }
 } // namespace
