@@ -1,13 +1,13 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "kernel_samples.h"
 #include <contactx/kernel/assemble.h>
 
 using namespace contactx;
 using namespace contactx::kernel;
 using namespace contactx::tests;
-using kernel::Pairs;
 
 namespace
 {
@@ -150,7 +150,7 @@ TEST(KernelAssembly, AddsVectorsOfEachKindOfPairs)
 {
   for (const Kind& kind : kinds())
   {
-    SCOPED_TRACE(::testing::Message() << kind);
+    SCOPED_TRACE(testing::Message() << kind);
     const Scene scene(kind);
     for (const std::string_view sliding : slidings)
       for (const std::string_view term : {"gap", "normal", "slip", "residual"})
@@ -177,7 +177,7 @@ TEST(KernelAssembly, GivesMatricesOfEachKindOfPairsAsTriplets)
 {
   for (const Kind& kind : kinds())
   {
-    SCOPED_TRACE(::testing::Message() << kind);
+    SCOPED_TRACE(testing::Message() << kind);
     const Scene scene(kind);
     for (const std::string_view sliding : slidings)
       for (const std::string_view term :
@@ -272,7 +272,7 @@ TEST(KernelAssembly, TakesSlipAndConstraintAloneOfPairsOfMovement)
 /// Expect that the assembly refuses a changed scene for a reason, and leaves
 /// the vector as it is.
 template <class Change>
-void expect_refusal(Change&& change, const std::string& reason,
+void expect_refused(Change&& change, const std::string& reason,
                     std::string_view term = "residual",
                     std::string_view sliding = "finite", int gdim = 3)
 {
@@ -280,56 +280,52 @@ void expect_refusal(Change&& change, const std::string& reason,
   Values b(3 * scene.num_nodes());
   change(scene, b);
   const Values before = b;
-  try
-  {
-    add_vector(scene.kind.law, sliding, term, scene.pairs, scene.arrays(), gdim,
-               b);
-    ADD_FAILURE() << "not refused: " << reason;
-  }
-  catch (const std::invalid_argument& error)
-  {
-    EXPECT_NE(std::string(error.what()).find(reason), std::string::npos)
-        << error.what();
-  }
+  expect_refusal(
+      [&]
+      {
+        add_vector(scene.kind.law, sliding, term, scene.pairs, scene.arrays(),
+                   gdim, b);
+      },
+      reason);
   EXPECT_EQ(b, before);
 }
 
 TEST(KernelAssembly, RefusesArgumentsThatDoNotFit)
 {
   const auto as_it_is = [](Scene&, Values&) {};
-  expect_refusal(as_it_is, "the term must be gap", "stiffness");
-  expect_refusal(as_it_is, "the term must be gap", "gaps");
-  expect_refusal(as_it_is, "no kernel for medium", "gap", "medium");
-  expect_refusal(as_it_is, "gdim must be 2 or 3", "gap", "finite", 4);
-  expect_refusal([](Scene& s, Values&) { s.pairs.nodes[3] = -1; },
+  expect_refused(as_it_is, "the term must be gap", "stiffness");
+  expect_refused(as_it_is, "the term must be gap", "gaps");
+  expect_refused(as_it_is, "no kernel for medium", "gap", "medium");
+  expect_refused(as_it_is, "gdim must be 2 or 3", "gap", "finite", 4);
+  expect_refused([](Scene& s, Values&) { s.pairs.nodes[3] = -1; },
                  "pairs.nodes must be numbers of rows of displacement");
-  expect_refusal([](Scene& s, Values&) { s.pairs.nodes[3] = 100000; },
+  expect_refused([](Scene& s, Values&) { s.pairs.nodes[3] = 100000; },
                  "there is 100000");
-  expect_refusal([](Scene& s, Values&) { s.pairs.slaves[0] = 100000; },
+  expect_refused([](Scene& s, Values&) { s.pairs.slaves[0] = 100000; },
                  "pairs.slaves must be numbers of rows of multiplier");
-  expect_refusal([](Scene& s, Values&) { s.pairs.slaves[0] = -1; },
+  expect_refused([](Scene& s, Values&) { s.pairs.slaves[0] = -1; },
                  "pairs.slaves must not be negative", "gap");
-  expect_refusal([](Scene& s, Values&) { s.pairs.nodes.pop_back(); },
+  expect_refused([](Scene& s, Values&) { s.pairs.nodes.pop_back(); },
                  "pairs.nodes must have 36 values, 4 for each pair");
-  expect_refusal([](Scene& s, Values&) { s.pairs.data.pop_back(); },
+  expect_refused([](Scene& s, Values&) { s.pairs.data.pop_back(); },
                  "pairs.data must have 81 values, 9 for each pair");
-  expect_refusal([](Scene& s, Values&) { s.pairs.data_size = 8; },
+  expect_refused([](Scene& s, Values&) { s.pairs.data_size = 8; },
                  "pairs.data_size must be 9");
-  expect_refusal([](Scene& s, Values&) { s.pairs.slip.clear(); },
+  expect_refused([](Scene& s, Values&) { s.pairs.slip.clear(); },
                  "pairs.slip must have 54 values, 6 for each pair", "slip");
-  expect_refusal([](Scene& s, Values&) { s.pairs.num_slaves = 0; },
+  expect_refused([](Scene& s, Values&) { s.pairs.num_slaves = 0; },
                  "pairs.num_slaves must be from 1 to 9");
-  expect_refusal([](Scene& s, Values&) { s.pairs.num_nodes = 10; },
+  expect_refused([](Scene& s, Values&) { s.pairs.num_nodes = 10; },
                  "pairs.num_nodes must be from 0 to 9");
-  expect_refusal([](Scene& s, Values&) { s.area.clear(); },
+  expect_refused([](Scene& s, Values&) { s.area.clear(); },
                  "rows of area, of which there are 0");
-  expect_refusal([](Scene& s, Values&) { s.position.pop_back(); },
+  expect_refused([](Scene& s, Values&) { s.position.pop_back(); },
                  "position must have rows of 3 values");
-  expect_refusal([](Scene&, Values& b) { b.resize(3); },
+  expect_refused([](Scene&, Values& b) { b.resize(3); },
                  "pairs.nodes must be numbers of rows of b");
-  expect_refusal([](Scene&, Values& b) { b.resize(10); },
+  expect_refused([](Scene&, Values& b) { b.resize(10); },
                  "b must have rows of 3 values");
-  expect_refusal(
+  expect_refused(
       [](Scene& s, Values&)
       {
         s.kind.law = Law::frictionless;
@@ -360,12 +356,8 @@ struct Fan
     // The master looks up: turn the slave facet over
     std::swap(slave_nodes[1], slave_nodes[2]);
     const Motion<3> motion(random, 1);
-    for (std::size_t i = 0; i < position.size(); i += 3)
-    {
-      const auto p
-          = motion(Vector<3>{position[i], position[i + 1], position[i + 2]});
-      std::ranges::copy(p, &position[i]);
-    }
+    for (std::size_t i = 0; i < position.size() / 3; ++i)
+      std::ranges::copy(motion(vector_at(position, i, 3)), &position[3 * i]);
     displacement.resize(position.size());
     for (double& u : displacement)
       u = random(-0.02, 0.02);

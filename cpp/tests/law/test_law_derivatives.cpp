@@ -6,7 +6,7 @@
 
 using namespace contactx;
 using namespace contactx::tests;
-using contactx::law::NodeState;
+using law::NodeState;
 
 namespace
 {
@@ -83,7 +83,7 @@ std::unique_ptr<law::Law> law_of(const std::string& name, int n,
   return coulomb;
 }
 
-class LawDerivatives : public ::testing::TestWithParam<int>
+class LawDerivatives : public testing::TestWithParam<int>
 {
 protected:
   static constexpr int n = 60;
@@ -176,5 +176,5 @@ TEST_P(LawDerivatives, OfTiesTakeEachComponentOnItsOwn)
   EXPECT_EQ(nodes.value, expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dimensions, LawDerivatives, ::testing::Values(2, 3));
+INSTANTIATE_TEST_SUITE_P(Dimensions, LawDerivatives, testing::Values(2, 3));
 } // namespace

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "node_states.h"
 #include "thread_ranks.h"
 #include <contactx/law/slip_history.h>
@@ -14,7 +15,7 @@ using namespace contactx::tests;
 namespace
 {
 using Flags = std::vector<std::int8_t>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan = std::nan("");
 
 TEST(NodeState, BeginsOpen)
 {
@@ -202,8 +203,7 @@ TEST(MeanNormal, HasUnitLengthWithoutDirectionsThatCannotMove)
   const double s = std::sqrt(0.17);
   const std::vector<double> expected{0,       0, 1,       0, 0, 1,
                                      0.1 / s, 0, 0.4 / s, 0, 0, 0};
-  for (std::size_t k = 0; k < expected.size(); ++k)
-    EXPECT_NEAR(nodes.normal[k], expected[k], 1e-15) << k;
+  expect_near(nodes.normal, expected, 1e-15);
 }
 
 TEST(MeanNormal, SlipIsAlongTheSurface)
@@ -215,9 +215,7 @@ TEST(MeanNormal, SlipIsAlongTheSurface)
   nodes.normalise();
   nodes.project(std::vector<double>{0, 0, 0, 0.5, 0, 0});
   // (0.5, 2, 3) - 2.7 (0.6, 0, 0.8)
-  const std::vector<double> expected{1, 0, 0, -1.12, 2, 0.84};
-  for (std::size_t k = 0; k < expected.size(); ++k)
-    EXPECT_NEAR(nodes.slip[k], expected[k], 1e-15) << k;
+  expect_near(nodes.slip, {1, 0, 0, -1.12, 2, 0.84}, 1e-15);
   EXPECT_THROW(nodes.project(std::vector<double>{1}), std::invalid_argument);
   // Nodes with normals of their own keep what they have
   law::NodeState plain(1, 2, true);

@@ -43,6 +43,15 @@ TEST(NormalStatus, IsClosedWhereThePressureExceedsTheGap)
   EXPECT_EQ(status_of(0, 0.1, 10), open);
   EXPECT_EQ(status_of(0.5, 0.1, 10), open);
   EXPECT_EQ(status_of(-2, -0.1, 10), open);
+  // On the boundary
+  EXPECT_EQ(status_of(0, 0, 10), open);
+  EXPECT_EQ(status_of(2, 0.25, 8), open);
+  EXPECT_EQ(status_of(std::nextafter(2, 3), 0.25, 8), slip);
+  // Without a pair
+  const double nan = std::nan("");
+  EXPECT_EQ(status_of(1, nan, 10), open);
+  EXPECT_EQ(status_of(nan, -1, 10), open);
+  EXPECT_EQ(status_of(nan, nan, 10), open);
 }
 
 TEST(NormalStatus, AClosedNodeOpensOnlyWithoutPressure)
@@ -58,21 +67,6 @@ TEST(NormalStatus, AClosedNodeOpensOnlyWithoutPressure)
   }
 }
 
-TEST(NormalStatus, IsOpenOnTheBoundary)
-{
-  EXPECT_EQ(status_of(0, 0, 10), open);
-  EXPECT_EQ(status_of(2, 0.25, 8), open);
-  EXPECT_EQ(status_of(std::nextafter(2, 3), 0.25, 8), slip);
-}
-
-TEST(NormalStatus, IsOpenWithoutAPair)
-{
-  const double nan = std::nan("");
-  EXPECT_EQ(status_of(1, nan, 10), open);
-  EXPECT_EQ(status_of(nan, -1, 10), open);
-  EXPECT_EQ(status_of(nan, nan, 10), open);
-}
-
 TEST(NormalStatus, CountsTheNodesThatChange)
 {
   const std::array p{1.0, 1.0, -1.0, -1.0, 1.0};
@@ -85,32 +79,21 @@ TEST(NormalStatus, CountsTheNodesThatChange)
   EXPECT_EQ(normal_status({p, g, c}, status), 0);
 }
 
-TEST(NormalComplementarity, IsTheGapOnClosedNodes)
+TEST(NormalComplementarity, IsTheGapOnClosedNodesAndThePressureOnOpenOnes)
 {
+  using Values = std::array<double, 3>;
   for (std::int8_t status : {stick, slip})
+    EXPECT_EQ(function_of(3, -0.5, 10, 2, status), (Values{-10, 0, 20}));
+  EXPECT_EQ(function_of(3, 0.5, 10, 2, open), (Values{6, 2, 0}));
+  // The gap is not read without a pair
+  EXPECT_EQ(function_of(3, std::nan(""), 10, 2, open), (Values{6, 2, 0}));
+  // Zero where the conditions hold
+  for (double gap : {0.0, 0.5})
   {
-    const auto [value, d_pressure, d_gap] = function_of(3, -0.5, 10, 2, status);
-    EXPECT_EQ(value, 2 * 10 * -0.5);
-    EXPECT_EQ(d_pressure, 0);
-    EXPECT_EQ(d_gap, 20);
+    const double pressure = gap > 0 ? 0 : 2;
+    const std::int8_t status = status_of(pressure, gap, 10);
+    EXPECT_EQ(function_of(pressure, gap, 10, 2, status)[0], 0);
   }
-}
-
-TEST(NormalComplementarity, IsThePressureOnOpenNodes)
-{
-  const auto [value, d_pressure, d_gap] = function_of(3, 0.5, 10, 2, open);
-  EXPECT_EQ(value, 2 * 3);
-  EXPECT_EQ(d_pressure, 2);
-  EXPECT_EQ(d_gap, 0);
-}
-
-TEST(NormalComplementarity, DoesNotReadTheGapOfANodeWithoutAPair)
-{
-  const auto [value, d_pressure, d_gap]
-      = function_of(3, std::nan(""), 10, 2, open);
-  EXPECT_EQ(value, 6);
-  EXPECT_EQ(d_pressure, 2);
-  EXPECT_EQ(d_gap, 0);
 }
 
 TEST(NormalComplementarity, HasItsDifferenceQuotientsAsDerivatives)
@@ -153,13 +136,4 @@ TEST(NormalComplementarity, TreatsEachNodeOnItsOwn)
   EXPECT_EQ(d_gap, (std::array{5.0, 0.0}));
 }
 
-TEST(NormalComplementarity, VanishesWhereTheConditionsHold)
-{
-  for (double gap : {0.0, 0.5})
-  {
-    const double pressure = gap > 0 ? 0 : 2;
-    const std::int8_t status = status_of(pressure, gap, 10);
-    EXPECT_EQ(function_of(pressure, gap, 10, 2, status)[0], 0);
-  }
-}
 } // namespace
