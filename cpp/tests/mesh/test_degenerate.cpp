@@ -6,10 +6,14 @@
 #include <cmath>
 #include <contactx/math/vec.h>
 #include <contactx/mesh/degenerate.h>
+#include <contactx/mesh/extent.h>
+#include <contactx/mesh/straight.h>
 #include <gtest/gtest.h>
+#include <numeric>
 
 using namespace contactx;
 using namespace contactx::tests;
+using mesh::check_straight;
 using mesh::corner_determinants;
 
 namespace
@@ -22,31 +26,20 @@ std::string said_of(int num_ranks, mesh::CellType cell,
                     bool has_numbers = true)
 {
   const int width = mesh::num_vertices(cell);
-  std::vector<std::string> texts(num_ranks);
-  on_ranks(num_ranks,
-           [&](ThreadRanks& ranks)
-           {
-             // The last rank alone has cells, numbered from behind
-             std::vector<std::int64_t> original;
-             if (ranks.rank() + 1 == ranks.size())
-               for (std::size_t c = nodes.size() / width; c > 0; --c)
-                 original.push_back(std::int64_t(c) + 6);
-             try
-             {
-               mesh::check_cells(
-                   ranks, cell, {mesh::dimension(cell), 1, nodes, width, x},
-                   static_cast<std::int32_t>(original.size()),
-                   has_numbers ? original : std::vector<std::int64_t>());
-             }
-             catch (const std::invalid_argument& error)
-             {
-               texts[ranks.rank()] = error.what();
-             }
-           });
-  EXPECT_EQ(texts.front(), texts.back());
-  return texts.front();
+  return said_on(num_ranks,
+                 [&](ThreadRanks& ranks)
+                 {
+                   // The last rank alone has cells, numbered from behind
+                   std::vector<std::int64_t> original;
+                   if (ranks.rank() + 1 == ranks.size())
+                     for (std::size_t c = nodes.size() / width; c > 0; --c)
+                       original.push_back(std::int64_t(c) + 6);
+                   mesh::check_cells(
+                       ranks, cell, {mesh::dimension(cell), 1, nodes, width, x},
+                       static_cast<std::int32_t>(original.size()),
+                       has_numbers ? original : std::vector<std::int64_t>());
+                 });
 }
-} // namespace
 
 TEST(Degenerate, DeterminantsOfAWarpedHexahedronAreThoseOfItsMap)
 {
@@ -88,13 +81,9 @@ TEST(Degenerate, TheFirstFlatCellIsNamedOnAllRanks)
     const std::string text = said_of(ranks, mesh::CellType::triangle, x,
                                      {0, 1, 2, 0, 1, 3, 1, 3, 4});
     EXPECT_TRUE(text.starts_with("2 cells of the mesh are degenerate")) << text;
-    EXPECT_NE(text.find("The first is at (2, 0) and is cell 7 of"),
-              std::string::npos)
-        << text;
-    const std::string without
-        = said_of(ranks, mesh::CellType::triangle, x, {0, 1, 3}, false);
-    EXPECT_NE(without.find("The first is at (1, 0): repair"), std::string::npos)
-        << without;
+    expect_says(text, "The first is at (2, 0) and is cell 7 of");
+    expect_says(said_of(ranks, mesh::CellType::triangle, x, {0, 1, 3}, false),
+                "The first is at (1, 0): repair");
     // Whichever way round
     EXPECT_EQ(said_of(ranks, mesh::CellType::triangle, x, {0, 1, 2, 1, 0, 2}),
               "");
@@ -104,8 +93,94 @@ TEST(Degenerate, TheFirstFlatCellIsNamedOnAllRanks)
 TEST(Degenerate, AQuadrilateralNumberedRoundAboutIsFolded)
 {
   const std::vector<double> x{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-  EXPECT_NE(said_of(1, mesh::CellType::quadrilateral, x, {0, 1, 2, 3})
-                .find("row by row, not round about"),
-            std::string::npos);
+  expect_says(said_of(1, mesh::CellType::quadrilateral, x, {0, 1, 2, 3}),
+              "row by row, not round about");
   EXPECT_EQ(said_of(1, mesh::CellType::quadrilateral, x, {0, 1, 3, 2}), "");
 }
+
+/// A square of order 2 on each rank, whose lower edge bulges by some length.
+std::string said_of(int num_ranks, int degree, double by,
+                    std::int32_t facet = 0)
+{
+  const std::vector<double> points{0, 0, 1,   0, 0,   1,   1, 1,   0.5,
+                                   0, 0, 0.5, 1, 0.5, 0.5, 1, 0.5, 0.5};
+  std::vector<double> x;
+  for (std::size_t i = 0; i < points.size(); i += 2)
+    x.insert(x.end(), {points[i], points[i + 1], 0});
+  x[3 * 4 + 1] = -by;
+  std::vector<std::int32_t> nodes(9);
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return said_on(
+      num_ranks,
+      [&](ThreadRanks& ranks)
+      {
+        const mesh::Cells cells{
+            mesh::CellType::quadrilateral, degree,
+            std::span<const std::int32_t>(nodes).first(degree == 2 ? 9 : 4)};
+        // The last rank alone has a facet
+        const std::vector<std::int32_t> of(ranks.rank() + 1 == ranks.size(), 0);
+        const std::vector<std::int32_t> local(of.size(), facet);
+        check_straight(ranks, "slave A", cells, {2, 2, nodes, 9, x}, points, of,
+                       local);
+      });
+}
+
+TEST(Straight, CurvedFacetsAreRefusedWhereTheDisplacementIsLinear)
+{
+  for (const int ranks : {1, 2})
+  {
+    const std::string text = said_of(ranks, 1, 0.01);
+    expect_says(text, "slave A is curved: the mesh is of order 2, and 1 of "
+                      "these facets have nodes up to 0.01 away");
+    expect_says(text, "first at (0.5, -0.01)");
+    EXPECT_EQ(said_of(ranks, 1, 0), "");
+    // What a mesh generator rounds
+    EXPECT_EQ(said_of(ranks, 1, 1e-7), "");
+    // Another one, or a displacement that follows it
+    EXPECT_EQ(said_of(ranks, 1, 0.01, 3), "");
+    EXPECT_EQ(said_of(ranks, 2, 0.01), "");
+  }
+}
+
+using ExtentOnRanks = testing::TestWithParam<int>;
+
+TEST_P(ExtentOnRanks, IsThatOfTheBox)
+{
+  on_ranks(
+      GetParam(),
+      [](ThreadRanks& ranks)
+      {
+        // Rank r has the points (r, -r) and (0, 1)
+        const double r = ranks.rank(), last = ranks.size() - 1;
+        const std::vector<double> x{r, -r, 0, 1};
+        EXPECT_EQ(mesh::extent(ranks, x, 2), (Vector<3>{last, last + 1, 0}));
+        // The first of them alone, and one rank has none
+        std::vector<std::int32_t> nodes{0};
+        if (ranks.rank() == 0 and ranks.size() > 1)
+          nodes.clear();
+        const double size = std::max(last - 1, 0.0);
+        EXPECT_EQ(mesh::extent(ranks, nodes, x, 2), (Vector<3>{size, size, 0}));
+        EXPECT_EQ(mesh::extent(ranks, std::vector<double>(), 3), Vector<3>{});
+      });
+}
+
+TEST_P(ExtentOnRanks, ScalesAreTheLongestSideAndTheLargestCoordinate)
+{
+  on_ranks(GetParam(),
+           [](ThreadRanks& ranks)
+           {
+             const double r = ranks.rank(), last = ranks.size() - 1;
+             std::vector<double> x{r, -r - 7, 0, 1};
+             const math::Scales found = mesh::scales(ranks, x, 2);
+             EXPECT_EQ(found.length, last + 8);
+             EXPECT_EQ(found.farthest, last + 7);
+             EXPECT_EQ(mesh::scales(ranks, std::vector<double>(), 3).farthest,
+                       0);
+             x[0] = ranks.rank() == 0 ? infinity : 0;
+             EXPECT_EQ(mesh::scales(ranks, x, 2).farthest, 0);
+             EXPECT_EQ(mesh::scales(ranks, x, 2).length, 0);
+           });
+}
+
+INSTANTIATE_TEST_SUITE_P(Extent, ExtentOnRanks, testing::Values(1, 2, 3, 4));
+} // namespace

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "threads.h"
+#include <contactx/mesh/ranks.h>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <stdexcept>
 
 using namespace contactx;
+using namespace contactx::mesh;
 using namespace contactx::tests;
-using mesh::Halo;
 
 namespace
 {
@@ -50,7 +52,6 @@ void check_nodes(const DistributedScene& scene, const Halo& halo)
     }
   }
 }
-} // namespace
 
 TEST_P(HaloOnRanks, HaloGrowsAndShrinks)
 {
@@ -210,15 +211,15 @@ TEST_P(HaloOnRanks, AllThrowWhatOneThrows)
              std::vector<int> expected(ranks.size());
              std::iota(expected.begin(), expected.end(), 0);
              EXPECT_EQ(all, expected);
-             constexpr double inf = std::numeric_limits<double>::infinity();
              const double me = ranks.rank();
-             const auto rows = ranks.gather(std::vector{me, inf, -inf});
+             const auto rows
+                 = ranks.gather(std::vector{me, infinity, -infinity});
              ASSERT_EQ(std::ssize(rows), 3 * ranks.size());
              for (int r = 0; r < ranks.size(); ++r)
              {
                EXPECT_EQ(rows[3 * r], r);
-               EXPECT_EQ(rows[3 * r + 1], inf);
-               EXPECT_EQ(rows[3 * r + 2], -inf);
+               EXPECT_EQ(rows[3 * r + 1], infinity);
+               EXPECT_EQ(rows[3 * r + 2], -infinity);
              }
            });
 }
@@ -242,3 +243,38 @@ TEST(Halo, TheBulksArraysMustFit)
 }
 
 INSTANTIATE_TEST_SUITE_P(Halo, HaloOnRanks, testing::Range(1, 5));
+
+TEST(Ranks, OneRankAlone)
+{
+  OneRank ranks;
+  EXPECT_EQ(total(ranks, 3.5), 3.5);
+  EXPECT_EQ(largest(ranks, -2), -2);
+  EXPECT_TRUE(anywhere(ranks, true));
+  EXPECT_FALSE(everywhere(ranks, false));
+  const std::vector<int> few{3, 1, 2};
+  EXPECT_EQ(gathered(ranks, std::span<const int>(few)), few);
+}
+
+TEST(Ranks, AnErrorOfOneRankComesThrough)
+{
+  OneRank ranks;
+  EXPECT_THROW(ranks.agree([] { throw std::invalid_argument("wrong"); }),
+               std::invalid_argument);
+  int count = 0;
+  ranks.agree([&] { ++count; });
+  EXPECT_EQ(count, 1);
+}
+
+TEST(Ranks, PackedValuesComeBack)
+{
+  const std::vector<double> a{1.5, -2.0};
+  const std::vector<std::int32_t> b{7};
+  std::vector<std::byte> bytes;
+  pack(bytes, std::span<const double>(a));
+  pack(bytes, std::span<const std::int32_t>(b));
+  std::span<const std::byte> left = bytes;
+  EXPECT_EQ(unpack<double>(left, 2), a);
+  EXPECT_EQ(unpack<std::int32_t>(left, 1), b);
+  EXPECT_THROW(unpack<double>(left, 1), std::invalid_argument);
+}
+} // namespace

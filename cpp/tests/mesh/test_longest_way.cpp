@@ -11,13 +11,11 @@ using namespace contactx::tests;
 
 namespace
 {
-constexpr double part = 0.2;
+constexpr double least_part = 0.2;
 
-template <class C>
-class LongestWay : public ::testing::Test
-{
-};
-using CellTypes = ::testing::Types<Simplex<2>, Cube<2>, Simplex<3>, Cube<3>>;
+template <class>
+using LongestWay = testing::Test;
+using CellTypes = testing::Types<Simplex<2>, Cube<2>, Simplex<3>, Cube<3>>;
 TYPED_TEST_SUITE(LongestWay, CellTypes);
 
 /// A cell that is somewhat out of shape, numbered either way round.
@@ -64,15 +62,15 @@ double least(const SampledCells<C>& cells, const std::vector<double>& way,
   SampledCells<C> moved = cells;
   for (std::size_t i = 0; i < way.size(); ++i)
     moved.u[i] += t * way[i];
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (int c = 0; c < static_cast<int>(cells.X.size()) / C::gdim / C::nodes;
        ++c)
     for (const auto& xi : points<C>())
     {
       const double begin = cells.det_F(c, xi);
       if (begin > 0)
-        least
-            = std::min(least, moved.det_F(c, xi) - part * std::min(begin, 1.0));
+        least = std::min(least, moved.det_F(c, xi)
+                                    - least_part * std::min(begin, 1.0));
     }
   return least;
 }
@@ -81,7 +79,7 @@ template <class C>
 double longest(const SampledCells<C>& cells, const std::vector<double>& way)
 {
   return mesh::max_step_without_inversion(cells.nodes(), C::nodes, cells.X,
-                                          cells.u, way, C::gdim, part);
+                                          cells.u, way, C::gdim, least_part);
 }
 
 TYPED_TEST(LongestWay, EndsWhereACellIsSqueezedTooMuch)
@@ -189,12 +187,13 @@ TEST(LongestWayInput, RefusesWhatMakesNoSense)
   const std::vector<std::int32_t> cell{0, 1, 2};
   EXPECT_EQ(mesh::max_step_without_inversion(cell, 3, X, u, u, 2, 0), 1);
   EXPECT_THROW(
-      mesh::max_step_without_inversion(cell, 3, X, u, short_way, 2, part),
+      mesh::max_step_without_inversion(cell, 3, X, u, short_way, 2, least_part),
       std::invalid_argument);
   for (const double bad : {-0.1, 1.0, std::nan("")})
     EXPECT_THROW(mesh::max_step_without_inversion(cell, 3, X, u, u, 2, bad),
                  std::invalid_argument);
-  EXPECT_THROW(mesh::max_step_without_inversion(cell, 5, X, u, u, 2, part),
-               std::invalid_argument);
+  EXPECT_THROW(
+      mesh::max_step_without_inversion(cell, 5, X, u, u, 2, least_part),
+      std::invalid_argument);
 }
 } // namespace

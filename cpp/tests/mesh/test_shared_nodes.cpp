@@ -7,13 +7,11 @@
 
 using namespace contactx;
 using namespace contactx::tests;
-using contactx::mesh::check_shared;
+using mesh::check_shared;
 
 namespace
 {
-class SharedNodes : public testing::TestWithParam<int>
-{
-};
+using SharedNodes = testing::TestWithParam<int>;
 
 /// Facets of a side whose first node is in a part of the plane.
 Side part(const Blocks& blocks, const Side& side, double low, double high)
