@@ -14,9 +14,7 @@ namespace
 {
 constexpr double tiny = 1e-9;
 
-class Crossings : public ::testing::TestWithParam<Made>
-{
-};
+using Crossings = testing::TestWithParam<Made>;
 
 TEST_P(Crossings, HaveTimeAndHeights)
 {
@@ -97,8 +95,8 @@ TEST_P(Crossings, AreFoundThereAndBack)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Crossings,
-                         ::testing::Values(Made::segments, Made::triangles,
-                                           Made::quadrilaterals));
+                         testing::Values(Made::segments, Made::triangles,
+                                         Made::quadrilaterals));
 
 TEST(Crossing, OfAWarpedFacetHasTheHeightsOfItsNodes)
 {
@@ -275,14 +273,15 @@ void follows_small_steps(unsigned seed, int scenes)
   EXPECT_LT(unseen, scenes / 20);
 }
 
-TEST(Crossing, FollowsSmallStepsInThePlane) { follows_small_steps<2>(1, 400); }
-
-TEST(Crossing, FollowsSmallStepsInSpace) { follows_small_steps<3>(2, 150); }
+TEST(Crossing, FollowsSmallStepsInThePlaneAndInSpace)
+{
+  follows_small_steps<2>(1, 400);
+  follows_small_steps<3>(2, 150);
+}
 
 TEST(Crossing, TakesAnyNumbers)
 {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  for (const double bad : {std::nan(""), inf, -inf, 1e300})
+  for (const double bad : {std::nan(""), infinity, -infinity, 1e300})
     for (Made made : {Made::segments, Made::triangles, Made::quadrilaterals})
     {
       const Outline floor{{3, 0}, {1.5, 0}, {0, 0}};

@@ -111,9 +111,7 @@ struct Tips
   }
 };
 
-class PassedTips : public ::testing::TestWithParam<int>
-{
-};
+using PassedTips = testing::TestWithParam<int>;
 
 std::vector<double> turned(std::vector<double> x, int gdim, double angle,
                            double shift)
@@ -194,7 +192,7 @@ TEST_P(PassedTips, OnlyOfCandidates)
   EXPECT_EQ(count(tip + 4, tip + 26), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PassedTips, ::testing::Values(2, 3));
+INSTANTIATE_TEST_SUITE_P(All, PassedTips, testing::Values(2, 3));
 
 namespace
 {

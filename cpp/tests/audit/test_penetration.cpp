@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "scene.h"
+#include <cmath>
+#include <contactx/audit/facet_sampling.h>
+#include <contactx/audit/far_side.h>
 #include <contactx/audit/penetration.h>
 #include <contactx/geometry/sizes.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::audit;
@@ -28,7 +32,7 @@ Scene polygon(int n, double radius)
 }
 
 double explained(double size, double curvature, int contact,
-                 double extent = std::numeric_limits<double>::infinity())
+                 double extent = infinity)
 {
   const std::int8_t flag = contact;
   return allowed_penetration(std::span(&size, 1), std::span(&curvature, 1),
@@ -91,25 +95,27 @@ TEST(FacetSizes, AreTheLongestDistances)
             (std::vector<double>{5, 5}));
 }
 
-TEST(ExplainedDepths, CoverTheChordOfACircle)
+TEST(ExplainedDepths, AreThoseOfTheFacetsSizeCurvatureAndContact)
 {
-  for (double h : {0.01, 0.1, 0.49})
+  // Away from contact what the facet does not resolve is not covered
+  for (double curvature : {0., 1.12, 100.})
   {
-    const double chord = 1 - std::sqrt(1 - h * h / 4);
-    EXPECT_GT(explained(h, 1, 0), chord);
-    EXPECT_LT(explained(h, 1, 0), 3 * chord + 4e-3 * h);
+    EXPECT_EQ(explained(1, curvature, 0), 1. / 256);
+    // Half beside contact
+    EXPECT_EQ(explained(1, curvature, 1), 0.075);
+    EXPECT_EQ(explained(1, curvature, 2), 0.15);
   }
-}
-
-TEST(ExplainedDepths, DoNotCoverWhatTheFacetDoesNotResolve)
-{
-  EXPECT_EQ(explained(1, 1.12, 0), 1. / 256);
-  EXPECT_EQ(explained(1, 100, 0), 1. / 256);
-  EXPECT_EQ(explained(1, 0, 0), 1. / 256);
-}
-
-TEST(ExplainedDepths, ScaleWithTheUnits)
-{
+  // But an arc meets a node there, too
+  EXPECT_EQ(explained(1, 1, 1), 0.15);
+  // A facet is too coarse however the master is curved: twice the chord would
+  // be a quarter of the facet
+  for (int contact : {0, 1, 2})
+    for (double curvature : {0.7, 0.9, 1.})
+      EXPECT_EQ(explained(1, curvature, contact), 0.15);
+  // A small master goes with its size
+  EXPECT_EQ(explained(1, 0, 2, 0.1), 0.15 * 0.1);
+  EXPECT_EQ(explained(1, 0, 0, 0.1), 0.1 / 256);
+  EXPECT_EQ(explained(1, 0, 2, 3), 0.15);
   for (double unit : {1e-6, 1., 1e6})
   {
     EXPECT_NEAR(explained(2 * unit, 1 / unit, 2), 0.3 * unit, 1e-12 * unit);
@@ -117,45 +123,23 @@ TEST(ExplainedDepths, ScaleWithTheUnits)
   }
 }
 
-TEST(ExplainedDepths, AreHalfBesideContact)
-{
-  for (double curvature : {0., 1.12, 100.})
-  {
-    EXPECT_EQ(explained(1, curvature, 1), 0.075);
-    EXPECT_EQ(explained(1, curvature, 2), 0.15);
-  }
-  // But an arc meets a node there, too
-  EXPECT_EQ(explained(1, 1, 1), 0.15);
-}
-
 TEST(ExplainedDepths, CoverAnArcUntilItMeetsANodeWhereverAStepEnds)
 {
   // An arc of radius 1 may be as deep as its chord between open nodes, and
   // where one of them is in contact
-  for (double h : {0.1, 0.5, 0.6, 0.9, 1.1})
+  for (double h : {0.01, 0.1, 0.49, 0.5, 0.6, 0.9, 1.1})
   {
     const double chord = 1 - std::sqrt(1 - h * h / 4);
     for (int contact : {0, 1, 2})
       EXPECT_GE(explained(h, 1, contact), chord);
+    if (h < 0.5)
+    {
+      EXPECT_LT(explained(h, 1, 0), 3 * chord + 4e-3 * h);
+    }
     // Up to there nothing is harm, and beyond all of it
     EXPECT_LE(chord, 0.15 * h);
   }
   EXPECT_GT(1 - std::sqrt(1 - 1.12 * 1.12 / 4), 0.15 * 1.12);
-}
-
-TEST(ExplainedDepths, EndWhereAFacetIsTooCoarseHoweverTheMasterIsCurved)
-{
-  // Twice the chord would be a quarter of the facet
-  for (int contact : {0, 1, 2})
-    for (double curvature : {0.7, 0.9, 1.})
-      EXPECT_EQ(explained(1, curvature, contact), 0.15);
-}
-
-TEST(ExplainedDepths, OfASmallMasterGoWithItsSize)
-{
-  EXPECT_EQ(explained(1, 0, 2, 0.1), 0.15 * 0.1);
-  EXPECT_EQ(explained(1, 0, 0, 0.1), 0.1 / 256);
-  EXPECT_EQ(explained(1, 0, 2, 3), 0.15);
 }
 
 TEST(ExplainedDepths, RefuseArraysOfDifferentSizes)
@@ -175,4 +159,153 @@ TEST(FacetTurns, RefuseNormalsOfOtherNodes)
       geometry::facet_turns(scene.facets(), scene.x, std::vector<double>(3), 3),
       std::invalid_argument);
 }
+
+/// Smallest gaps below facets of an obstacle, and how many points were needed.
+template <class Gap>
+std::pair<std::vector<double>, std::size_t> sample(const Scene& scene, Gap gap,
+                                                   double allowed, int levels)
+{
+  FacetSampling sampling(scene.facets(), scene.x, scene.gdim,
+                         std::vector<double>(scene.facets().size(), allowed),
+                         levels);
+  std::size_t asked = 0;
+  while (!sampling.points().empty())
+  {
+    std::vector<double> gaps;
+    const auto points = sampling.points();
+    for (std::size_t i = 0; i < points.size() / scene.gdim; ++i)
+      gaps.push_back(gap(vector_at(points, i, scene.gdim)));
+    asked += gaps.size();
+    sampling.take(gaps);
+  }
+  return {sampling.gaps(), asked};
+}
+
+auto ball(const Vector<3>& centre, double radius)
+{
+  return [centre, radius](const Vector<3>& p)
+  { return norm(p - centre) - radius; };
+}
+
+Scene triangle()
+{
+  Scene scene(3);
+  for (const Vector<3>& p : {Vector<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})
+    scene.node(p);
+  scene.facet({0, 1, 2});
+  return scene;
+}
+
+Scene segment()
+{
+  Scene scene(2);
+  scene.node({0, 0});
+  scene.node({1, 0});
+  scene.facet({0, 1});
+  return scene;
+}
+
+TEST(FacetSampling, SeesASmallBallAnywhereInAFacet)
+{
+  for (const Scene& scene :
+       {segment(), triangle(), flat_grid(1, Cells::quadrilaterals)})
+  {
+    Generator random(3);
+    for (int k = 0; k < 200; ++k)
+    {
+      double s = random(0.01, 0.99), t = random(0.01, 0.99);
+      if (scene.gdim == 2)
+        t = 0;
+      else if (scene.facets()[0].size() == 3 and s + t > 1)
+        s = 1 - s, t = 1 - t;
+      const auto [gaps, asked] = sample(scene, ball({s, t, 0}, 0.01), 1e-3, 7);
+      EXPECT_LT(gaps[0], -1e-3);
+      // Not everywhere: only towards the ball
+      EXPECT_LT(asked, 400u);
+    }
+  }
+}
+
+TEST(FacetSampling, RemembersTheDeepestPlace)
+{
+  const Scene scene = triangle();
+  FacetSampling sampling(scene.facets(), scene.x, 3, {1e-3}, 7);
+  EXPECT_TRUE(std::isnan(sampling.deepest()[0]));
+  const auto gap = ball({0.3, 0.4, 0}, 0.01);
+  while (!sampling.points().empty())
+  {
+    std::vector<double> gaps;
+    const auto points = sampling.points();
+    for (std::size_t i = 0; i < points.size(); i += 3)
+      gaps.push_back(gap({points[i], points[i + 1], points[i + 2]}));
+    sampling.take(gaps);
+  }
+  const auto& p = sampling.deepest();
+  EXPECT_EQ(gap({p[0], p[1], p[2]}), sampling.gaps()[0]);
+}
+
+TEST(FacetSampling, AsksOnceWhereTheObstacleIsFar)
+{
+  const auto [gaps, asked]
+      = sample(flat_grid(8, Cells::mixed), ball({0.5, 0.5, 9}, 1), 1e-3, 7);
+  EXPECT_EQ(asked, gaps.size());
+}
+
+TEST(FacetSampling, LooksNoCloserThanTheDepthThatIsAllowed)
+{
+  const Scene scene = triangle();
+  const auto wide = sample(scene, ball({0.3, 0.3, -5}, 5), 0.2, 7).second;
+  const auto close = sample(scene, ball({0.3, 0.3, -5}, 5), 0.01, 7).second;
+  EXPECT_LT(wide, 30u);
+  EXPECT_GT(close, 4 * wide);
+}
+
+TEST(FacetSampling, WhatIsNotANumberIsFar)
+{
+  const double nan = std::nan("");
+  const auto [gaps, asked]
+      = sample(segment(), [nan](const Vector<3>&) { return nan; }, 1e-3, 7);
+  EXPECT_EQ(asked, 1u);
+  EXPECT_TRUE(std::isinf(gaps[0]));
+}
+
+TEST(FacetSampling, RefusesWhatDoesNotFit)
+{
+  const Scene scene = segment();
+  EXPECT_THROW(FacetSampling(scene.facets(), scene.x, 2, {1, 1}, 3),
+               std::invalid_argument);
+  FacetSampling sampling(scene.facets(), scene.x, 2, {1}, 3);
+  EXPECT_THROW(sampling.take(std::vector<double>(2)), std::invalid_argument);
+}
+
+using Row = std::vector<double>;
+
+bool is_far(const Row& own_before, const Row& own_after, const Row& before,
+            const Row& after)
+{
+  return far_side(own_before, own_after, before, after, 2)[0] == 1;
+}
+
+Row at(double degrees)
+{
+  const double t = degrees * std::acos(-1) / 180;
+  return {std::cos(t), std::sin(t)};
+}
+
+TEST(FarSide, IsWhereAnObstacleWentThroughASheet)
+{
+  EXPECT_TRUE(is_far(at(90), at(90), at(270), at(90)));
+  EXPECT_TRUE(is_far(at(90), at(80), at(225), at(60)));
+  // A body rolls off: own normal and the obstacle's turn together
+  EXPECT_FALSE(is_far(at(90), at(220), at(270), at(20)));
+  EXPECT_FALSE(is_far(at(90), at(190), at(270), at(100)));
+  // A node slides around the obstacle
+  EXPECT_FALSE(is_far(at(90), at(170), at(270), at(350)));
+  // An obstacle passes by over a sheet
+  EXPECT_FALSE(is_far(at(90), at(90), at(190), at(350)));
+  // A node faced away before
+  EXPECT_FALSE(is_far(at(270), at(270), at(270), at(90)));
+  EXPECT_THROW(far_side(at(0), at(0), at(0), Row(4), 2), std::invalid_argument);
+}
+
 } // namespace
