@@ -12,14 +12,12 @@
 
 using namespace contactx;
 using namespace contactx::tests;
-using contactx::problem::check_nested;
-using contactx::problem::check_outside;
+using problem::check_nested;
+using problem::check_outside;
 
 namespace
 {
-class Inside : public testing::TestWithParam<int>
-{
-};
+using Inside = testing::TestWithParam<int>;
 
 /// A block of size 0.4 whose bottom is at a height, in a block below zero.
 struct Nested

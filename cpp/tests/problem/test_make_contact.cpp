@@ -1,8 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "contact_scene.h"
-#include "two_sheets.h"
+#include "spring_bodies.h"
 #include <contactx/contact/surface_to_surface.h>
 #include <contactx/geometry/plane.h>
 #include <contactx/problem/make_contact.h>
@@ -16,13 +15,10 @@ using namespace contactx::tests;
 namespace
 {
 /// Two sheets, of which a contact is made by its options.
-struct Input
+struct Input : SpringBodies
 {
   explicit Input(int dim)
-      : scene(dim),
-        bodies(std::make_shared<mesh::Bodies>(
-            cells(), 2, num_cells(), scene.halo->original(), scene.halo)),
-        mesh{scene.halo, bodies, cells(), 2},
+      : SpringBodies(dim), mesh{scene.halo, bodies(), bulk->cells(), 2},
         sides{.slave = {"upper", scene.sheets.slave.list()},
               .master = mesh::NamedSurface{"lower", scene.sheets.master.list()}}
   {
@@ -33,40 +29,6 @@ struct Input
     return make_contact(mesh, sides, options, scene.prescribed);
   }
 
-  std::string refusal(const ContactOptions& options = {})
-  {
-    try
-    {
-      make(options);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      return error.what();
-    }
-    return "nothing";
-  }
-
-  /// Edges of both sheets, which make each of them a body.
-  std::span<const std::int32_t> cells()
-  {
-    if (edges.empty())
-      for (const auto* facets : {&scene.sheets.slave, &scene.sheets.master})
-        for (std::int32_t f = 0; f < facets->list().size(); ++f)
-        {
-          const auto nodes = facets->list()[f];
-          for (std::size_t i = 1; i < nodes.size(); ++i)
-            edges.insert(edges.end(), {nodes[i - 1], nodes[i]});
-        }
-    return edges;
-  }
-  std::int32_t num_cells()
-  {
-    return static_cast<std::int32_t>(cells().size() / 2);
-  }
-
-  std::vector<std::int32_t> edges;
-  ContactScene scene;
-  std::shared_ptr<mesh::Bodies> bodies;
   mesh::Mesh mesh;
   Sides sides;
 };
@@ -134,16 +96,12 @@ TEST(MakeContact, AWeightIsAskedForAtTheSlaveNodes)
 TEST(MakeContact, WhatExcludesEachOtherIsRefused)
 {
   Input input(2);
-  EXPECT_NE(
-      input.refusal({.tied = true, .has_friction = true}).find("tied excludes"),
-      std::string::npos);
-  EXPECT_NE(input.refusal({.tangential_factor = 0}).find("tangential_factor"),
-            std::string::npos);
-  EXPECT_NE(input.refusal({.search_distance = -1.0}).find("search_distance"),
-            std::string::npos);
-  EXPECT_NE(
-      input.refusal({.excluded_distance = 1.0}).find("not the same surface"),
-      std::string::npos);
+  const auto expect = [&](const ContactOptions& options, const char* words)
+  { expect_refusal([&] { input.make(options); }, words); };
+  expect({.tied = true, .has_friction = true}, "tied excludes");
+  expect({.tangential_factor = 0}, "tangential_factor");
+  expect({.search_distance = -1.0}, "search_distance");
+  expect({.excluded_distance = 1.0}, "not the same surface");
 }
 
 TEST(MakeContact, NamesAreThoseOfMessages)

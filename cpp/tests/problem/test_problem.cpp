@@ -16,7 +16,7 @@ using namespace contactx::tests;
 
 namespace
 {
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::nan("");
 
 void expect_same(const std::vector<std::vector<Saved>>& a,
                  const std::vector<std::vector<Saved>>& b)
@@ -46,24 +46,6 @@ void expect_same(const std::vector<std::vector<Saved>>& a,
   }
 }
 
-template <class Error, class Call>
-std::string said(Call call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "nothing";
-}
-
-bool contains(const std::string& text, const char* part)
-{
-  return text.find(part) != std::string::npos;
-}
 } // namespace
 
 TEST(Problem, AStepEndsWithItsReport)
@@ -125,9 +107,9 @@ TEST(Problem, AFailedStepIsTriedOnceMoreDamped)
     found.press(0.09, 0.05);
     const auto before = found.state();
     DenseSolver solver(found);
-    const std::string reason = said<ConvergenceError>(
-        [&] { found.problem().solve(solver, {.rtol = 1e-12, .max_it = 0}); });
-    EXPECT_TRUE(contains(reason, "no convergence in 0 iterations")) << reason;
+    expect_refusal<ConvergenceError>(
+        [&] { found.problem().solve(solver, {.rtol = 1e-12, .max_it = 0}); },
+        "no convergence in 0 iterations");
     EXPECT_EQ(found.problem().report().damped, sliding == Sliding::finite);
     expect_same(found.state(), before);
   }
@@ -159,11 +141,10 @@ TEST(Problem, StepsOfAPlanAreCutUntilTheyConverge)
   const auto before = found.state();
   StepPlan stuck(StepPlan::equal(1), 1);
   reached = -10;
-  const std::string reason = said<ConvergenceError>(
-      [&] { found.problem().advance(stuck, update, solver); });
-  EXPECT_TRUE(contains(reason, "No step from t = 0 converged; the last "
-                               "attempt, to t = 0.5, was the shortest"))
-      << reason;
+  expect_refusal<ConvergenceError>(
+      [&] { found.problem().advance(stuck, update, solver); },
+      "No step from t = 0 converged; the last attempt, to t = 0.5, was the "
+      "shortest");
   EXPECT_EQ(tried.back(), 0);
   EXPECT_EQ(stuck.t(), 0);
   expect_same(found.state(), before);
@@ -191,7 +172,7 @@ TEST(Problem, LoadsAreSetBackWhereAStepOfAPlanThrows)
       throw std::runtime_error("no memory");
     }
   } throwing;
-  EXPECT_EQ(said<std::runtime_error>(
+  EXPECT_EQ(refusal<std::runtime_error>(
                 [&] { found.problem().advance(plan, update, throwing); }),
             "no memory");
   EXPECT_EQ(tried, (std::vector{0.5, 1.0, 0.5}));
@@ -207,11 +188,10 @@ TEST(Problem, LoadsAreSetBackWhereAStepOfAPlanThrows)
   };
   StepPlan stuck(std::vector{0.5, 1.0}, 0);
   stuck.accept(1);
-  const std::string reason = said<ConvergenceError>(
-      [&] { found.problem().advance(stuck, once, solver); });
-  EXPECT_TRUE(contains(reason, "max_cuts = 0 allows. Setting the loads of t = "
-                               "0.5 again failed: no such load"))
-      << reason;
+  expect_refusal<ConvergenceError>(
+      [&] { found.problem().advance(stuck, once, solver); },
+      "max_cuts = 0 allows. Setting the loads of t = 0.5 again failed: no such "
+      "load");
 }
 
 TEST(Problem, CallsHaveAnOrder)
@@ -221,24 +201,21 @@ TEST(Problem, CallsHaveAnOrder)
   found.press(0.09, 0);
   Problem& problem = found.problem();
   std::vector<double> dx(problem.system()->size());
-  const auto refused = [](auto call) { return said<std::logic_error>(call); };
-  EXPECT_TRUE(contains(refused([&] { problem.settle(1e-11, 0, 50); }),
-                       "settle() before begin_step()"));
-  EXPECT_TRUE(contains(refused([&] { problem.enter("residual"); }),
-                       "residual() before begin_step()"));
+  const auto refused = [](auto call, const char* words)
+  { expect_refusal<std::logic_error>(call, words); };
+  refused([&] { problem.settle(1e-11, 0, 50); },
+          "settle() before begin_step()");
+  refused([&] { problem.enter("residual"); }, "residual() before begin_step()");
   problem.begin_step();
-  EXPECT_TRUE(
-      contains(refused([&] { problem.limit(dx); }), "limit() before settle()"));
+  refused([&] { problem.limit(dx); }, "limit() before settle()");
   problem.settle(1e-11, 0, 50);
-  EXPECT_TRUE(contains(refused([&] { problem.enter("accept"); }),
-                       "accept() of an iterate that is no solution"));
+  refused([&] { problem.enter("accept"); },
+          "accept() of an iterate that is no solution");
   problem.update(dx);
-  EXPECT_TRUE(
-      contains(refused([&] { problem.limit(dx); }), "limit() before settle()"));
+  refused([&] { problem.limit(dx); }, "limit() before settle()");
   EXPECT_THROW(problem.update(dx, not_a_number), std::invalid_argument);
   problem.restore();
-  EXPECT_TRUE(contains(refused([&] { problem.update(dx); }),
-                       "update() before begin_step()"));
+  refused([&] { problem.update(dx); }, "update() before begin_step()");
 }
 
 TEST(Problem, ItReturnsToWhereAStepBeganBitForBit)
@@ -278,9 +255,8 @@ TEST(Problem, TooManyIterationsEndIt)
   const Settled& end = found.solve(1);
   EXPECT_FALSE(end.converged);
   EXPECT_EQ(end.number, 1);
-  EXPECT_TRUE(contains(end.failure, "no convergence in 1 iterations: take "
-                                    "smaller load steps"))
-      << end.failure;
+  expect_says(end.failure,
+              "no convergence in 1 iterations: take smaller load steps");
   EXPECT_FALSE(end.is_final);
 }
 
@@ -304,9 +280,8 @@ TEST(Problem, HiddenPenetrationIsRefused)
         return Outcome::failed;
       }));
   EXPECT_EQ(attempts, 1) << "no other way leads on";
-  EXPECT_TRUE(contains(end.failure, "hide a penetration: refine the coarser "
-                                    "surface there"))
-      << end.failure;
+  expect_says(end.failure,
+              "hide a penetration: refine the coarser surface there");
   EXPECT_TRUE(end.is_final);
   problem.summarise();
   EXPECT_DOUBLE_EQ(problem.report().frozen_gap, -1e-3);
@@ -319,21 +294,18 @@ TEST(Problem, WhatIsNotFiniteIsRefusedBeforeAnyWork)
   found.add<NodeToSurface>(found.law(0), Sliding::small);
   found.press(0.09, 0);
   Problem& problem = found.problem();
-  const auto refused = [&]
-  { return said<std::invalid_argument>([&] { problem.begin_step(); }); };
+  const auto begin = [&] { problem.begin_step(); };
   (*found.scene.u)[3] = not_a_number;
-  EXPECT_TRUE(
-      contains(refused(), "the displacement u is not finite at 1 dofs"));
+  expect_refusal(begin, "the displacement u is not finite at 1 dofs");
   (*found.scene.u)[3] = 0;
   const std::size_t dof = 2 * found.scene.mesh.place[0] + 1;
   found.bulk->values[dof] = not_a_number;
-  EXPECT_TRUE(contains(refused(), "bcs prescribe displacements that are not "
-                                  "finite, at 1 dofs"));
+  expect_refusal(begin,
+                 "bcs prescribe displacements that are not finite, at 1 dofs");
   found.bulk->values[dof] = 0;
   found.bulk->load[0] = not_a_number;
-  EXPECT_TRUE(
-      contains(said<solve::NotFinite>([&] { problem.begin_step(); }),
-               "the residual is not finite: the material fails at the start"));
+  expect_refusal<solve::NotFinite>(
+      begin, "the residual is not finite: the material fails at the start");
   found.bulk->load[0] = 0;
   EXPECT_TRUE(found.solve().converged);
 }
@@ -375,12 +347,10 @@ TEST(Problem, AContactOutOfReachIsWarnedOf)
     ASSERT_EQ(warnings.size(), may_fly ? 0 : 1);
     if (not may_fly)
     {
-      EXPECT_TRUE(contains(warnings[0],
-                           "contact 0 (of sheets) transmits no force: it has "
-                           "no slave node within reach of its master; the "
-                           "nearest is "))
-          << warnings[0];
-      EXPECT_TRUE(contains(warnings[0], "in the reference configuration"));
+      expect_says(warnings[0],
+                  "contact 0 (of sheets) transmits no force: it has no slave "
+                  "node within reach of its master; the nearest is ");
+      expect_says(warnings[0], "in the reference configuration");
     }
   }
 }

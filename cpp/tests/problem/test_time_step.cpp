@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "stepped_bodies.h"
+#include <algorithm>
+#include <contactx/problem/step_plan.h>
 #include <contactx/problem/time_step.h>
+#include <functional>
 #include <gtest/gtest.h>
+#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::problem;
@@ -119,7 +123,6 @@ struct Falling : Stepped
   std::shared_ptr<Masses> inertia;
   std::shared_ptr<TimeStep> step;
 };
-} // namespace
 
 TEST(TimeStep, TwoMassesGoOnTogether)
 {
@@ -142,8 +145,7 @@ TEST(TimeStep, TwoMassesGoOnTogether)
       loss += 0.5 * a * b / (a + b) * down * down;
       impulse += a * (together - down);
     }
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      EXPECT_NEAR(step.velocity()[i], expected[i], 1e-12);
+    expect_near(step.velocity(), expected, 1e-12);
     const Balance balance = step.balance();
     EXPECT_EQ(balance.dt, duration);
     EXPECT_NEAR(balance.kinetic, kinetic - loss, 1e-12);
@@ -170,8 +172,7 @@ TEST(TimeStep, TwoMassesGoOnTogether)
     EXPECT_NEAR(balance.angular_momentum[0], moment, 1e-11);
     const std::vector<std::string> lines = balance.lines();
     ASSERT_EQ(lines.size(), 2);
-    EXPECT_NE(lines[0].find("time step 0.25: kinetic energy"),
-              std::string::npos);
+    expect_says(lines[0], "time step 0.25: kinetic energy");
   }
 }
 
@@ -212,18 +213,10 @@ TEST(TimeStep, NodesThatComeTooFarAreRefused)
   TimeStep& step = s.make(0.05);
   const auto before = s.state();
   step.begin(duration, s.velocity);
-  try
-  {
-    s.solve();
-    FAIL() << "nodes go 0.1 of a cell";
-  }
-  catch (const contactx::problem::ConvergenceError& error)
-  {
-    EXPECT_STREQ(error.what(),
-                 "a node moved by 0.1 of a cell to what it hits, further than "
-                 "impact_travel = 0.05: take shorter steps (manual: "
-                 "errors/impact-travel)");
-  }
+  EXPECT_EQ(refusal<ConvergenceError>([&] { s.solve(); }),
+            "a node moved by 0.1 of a cell to what it hits, further than "
+            "impact_travel = 0.05: take shorter steps (manual: "
+            "errors/impact-travel)");
   EXPECT_FALSE(s.problem().report().converged);
   EXPECT_TRUE(step.velocity().empty());
   const auto after = s.state();
@@ -279,3 +272,75 @@ TEST(TimeStep, WrongArgumentsAreRefused)
   EXPECT_THROW(TimeStep(system, s.results_of, s.inertia),
                std::invalid_argument);
 }
+
+/// All t that are attempted, failed ones negative, until the end or the last
+/// failure.
+std::vector<double> walk(StepPlan plan,
+                         const std::function<bool(double, double)>& fails,
+                         int iterations = 5)
+{
+  std::vector<double> tried;
+  while (not plan.finished())
+  {
+    const double t = plan.next();
+    const bool failed = fails(plan.t(), t);
+    tried.push_back(failed ? -t : t);
+    if (not failed)
+      plan.accept(iterations);
+    else if (not plan.cut())
+      break;
+  }
+  return tried;
+}
+
+TEST(StepPlan, AFailedStepIsHalvedAndGrowsBackAfterEasyOnes)
+{
+  const StepPlan plan(StepPlan::equal(2));
+  EXPECT_EQ(walk(plan, [](double, double) { return true; }),
+            (std::vector{-0.5, -0.25, -0.125, -0.0625, -0.03125, -0.015625,
+                         -0.0078125}));
+  const auto at_start
+      = [](double start, double t) { return start == 0 and t > 0.1; };
+  EXPECT_EQ(walk(plan, at_start),
+            (std::vector{-0.5, -0.25, -0.125, 0.0625, 0.125, 0.25, 0.5, 1.0}));
+  // Hard ones stay short
+  EXPECT_EQ(walk(plan, at_start, 11).size(), 3 + 16u);
+}
+
+TEST(StepPlan, GivenTAreMetExactly)
+{
+  const std::vector<double> given{0.1, 0.3, 0.7};
+  const auto tried = walk(StepPlan(given), [](double start, double t)
+                          { return t - start > 0.07; });
+  for (const double t : given)
+    EXPECT_NE(std::ranges::find(tried, t), tried.end());
+}
+
+TEST(StepPlan, ASavedPlaceIsGoneOnFrom)
+{
+  StepPlan plan(StepPlan::equal(4));
+  plan.cut();
+  plan.accept(5);
+  StepPlan other(StepPlan::equal(4));
+  other.load(plan.given(), plan.place());
+  EXPECT_EQ(other, plan);
+  StepPlan finer({0.05, 0.2, 1});
+  finer.load(plan.given(), plan.place());
+  EXPECT_EQ(finer.t(), 0.125);
+  EXPECT_EQ(finer.next(), 0.2);
+  StepPlan shorter({0.1});
+  EXPECT_THROW(shorter.load(plan.given(), plan.place()), std::invalid_argument);
+  EXPECT_EQ(shorter.t(), 0);
+}
+
+TEST(StepPlan, WhatDoesNotFitIsRefused)
+{
+  EXPECT_THROW(StepPlan({}), std::invalid_argument);
+  EXPECT_THROW(StepPlan({0, 1}), std::invalid_argument);
+  EXPECT_THROW(StepPlan({0.5, 0.5}), std::invalid_argument);
+  EXPECT_THROW(StepPlan({1}, -1), std::invalid_argument);
+  EXPECT_THROW(StepPlan({1}, 41), std::invalid_argument);
+  EXPECT_THROW(StepPlan({1}, 6, -1), std::invalid_argument);
+  EXPECT_THROW(StepPlan::equal(0), std::invalid_argument);
+}
+} // namespace
