@@ -16,10 +16,10 @@
 using namespace contactx;
 using namespace contactx::tests;
 using contact::Sliding;
-using problem::MasterOptions;
-using problem::Method;
 using problem::make_master;
 using problem::make_slave_nodes;
+using problem::MasterOptions;
+using problem::Method;
 
 namespace
 {

@@ -57,25 +57,28 @@ TEST(Pairing, LetsGoOfAFacetThatIsFarAway)
   EXPECT_EQ(s.facet(), 1);
 }
 
-TEST(Pairing, KeepsAFacetInsideItsMargin)
+/// Expect that a node keeps its facet within its margin.
+void expect_kept_in_margin(double begin, double height)
 {
-  // Near, and farther than a facet is long
-  for (const double height : {0.1, 1.5})
-  {
-    SCOPED_TRACE(height);
-    SlidingSegment s(flat);
-    s.search_at({height < 1 ? 0.5 : 0.99, height}, false);
-    EXPECT_EQ(s.facet(), 0);
-    s.search_at({1 + 0.9 * geometry::facet_margin, height}, false);
-    EXPECT_EQ(s.facet(), 0);
-    EXPECT_NEAR(s.pairing.xi()[0], -0.9 * geometry::facet_margin, 1e-15);
-    s.search_at({1 + 1.1 * geometry::facet_margin, height}, false);
-    EXPECT_EQ(s.facet(), 1);
-    s.search_at({1 - 0.9 * geometry::facet_margin, height}, false);
-    EXPECT_EQ(s.facet(), 1);
-    s.search_at({1 - 1.1 * geometry::facet_margin, height}, false);
-    EXPECT_EQ(s.facet(), 0);
-  }
+  SlidingSegment s(flat);
+  s.search_at({begin, height}, false);
+  EXPECT_EQ(s.facet(), 0);
+  s.search_at({1 + 0.9 * geometry::facet_margin, height}, false);
+  EXPECT_EQ(s.facet(), 0);
+  EXPECT_NEAR(s.pairing.xi()[0], -0.9 * geometry::facet_margin, 1e-15);
+  s.search_at({1 + 1.1 * geometry::facet_margin, height}, false);
+  EXPECT_EQ(s.facet(), 1);
+  s.search_at({1 - 0.9 * geometry::facet_margin, height}, false);
+  EXPECT_EQ(s.facet(), 1);
+  s.search_at({1 - 1.1 * geometry::facet_margin, height}, false);
+  EXPECT_EQ(s.facet(), 0);
+}
+
+TEST(Pairing, KeepsAFacetInsideItsMargin) { expect_kept_in_margin(0.5, 0.1); }
+
+TEST(Pairing, FarFromAnEdgeOfTwoFacetsItKeepsTheOneThatItHas)
+{
+  expect_kept_in_margin(0.99, 1.5); // longer than a facet
 }
 
 TEST(Pairing, LooksNoFartherThanItsReach)
