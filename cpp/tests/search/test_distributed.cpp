@@ -145,15 +145,11 @@ Scene two_sides(Generator& random, Cells cells, int gdim,
     }
     return scene;
   }
-  const Scene low = grid(6, cells,
-                         [&](double s, double t) {
-                           return Vector<3>{s, t, bottom(s, t)};
-                         });
+  const Scene low = grid(6, cells, [&](double s, double t)
+                         { return Vector<3>{s, t, bottom(s, t)}; });
   // Mirrored, so that it faces down
-  const Scene high = grid(5, cells,
-                          [&](double s, double t) {
-                            return Vector<3>{1.1 - s, t, gap + 0.1 * s * t};
-                          });
+  const Scene high = grid(5, cells, [&](double s, double t)
+                          { return Vector<3>{1.1 - s, t, gap + 0.1 * s * t}; });
   scene = low;
   num_master = low.facets().size();
   scene.join(high);
@@ -577,10 +573,8 @@ TEST_P(SurfaceOnRanks, PointsOutsideOfAThinPlate)
   const int n = 4;
   const double thick = 0.02;
   Scene scene = flat_grid(n, Cells::quadrilaterals);
-  scene.join(grid(n, Cells::quadrilaterals,
-                  [&](double s, double t) {
-                    return Vector<3>{1 - s, t, -thick};
-                  }));
+  scene.join(grid(n, Cells::quadrilaterals, [&](double s, double t)
+                  { return Vector<3>{1 - s, t, -thick}; }));
   for (const bool closed : {true, false})
     for (const bool scattered : {true, false})
     {
