@@ -59,6 +59,7 @@ void newton(py::module_& m);
 void problem(py::module_& m);
 void kernel(py::module_& m);
 void audit(py::module_& m);
+void algebra(py::module_& m);
 void condense(py::module_& m);
 void conductance(py::module_& m);
 void slave_nodes(py::module_& m);

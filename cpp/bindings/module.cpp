@@ -18,6 +18,7 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::contact(m);
   contactx_bindings::results(m);
   contactx_bindings::condense(m);
+  contactx_bindings::algebra(m);
   contactx_bindings::conductance(m);
   contactx_bindings::bodies(m);
   contactx_bindings::mesh(m);

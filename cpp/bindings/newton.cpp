@@ -3,11 +3,9 @@
 
 #include "bulk.h"
 #include "master.h"
-#include <contactx/solve/accuracy.h>
 #include <contactx/solve/derivative_check.h>
 #include <contactx/solve/loop.h>
 #include <contactx/solve/not_finite.h>
-#include <contactx/solve/residual_weights.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -15,7 +13,6 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::solve;
 using contactx::condense::ContactBlock;
-using contactx::mesh::Bodies;
 using contactx::mesh::Halo;
 using contactx::solve::ActiveSet;
 using contactx::solve::FreeBodies;
@@ -129,16 +126,6 @@ void contactx_bindings::newton(py::module_& m)
       .def_property_readonly("limited", &StepLength::limited)
       .def_property_readonly("damped", &StepLength::damped);
 
-  py::class_<Accuracy>(m, "Accuracy", "How accurate linear solves must be")
-      .def(py::init<bool>(), py::arg("has_path"))
-      .def("begin_step", &Accuracy::begin_step)
-      .def("reset", &Accuracy::reset)
-      .def("set", &Accuracy::set, py::arg("residual"), py::arg("tolerance"),
-           py::arg("changing"), py::arg("has_cycled") = false)
-      .def_property_readonly("target", &Accuracy::target)
-      .def("skip", &Accuracy::skip)
-      .def_property_readonly("is_last", &Accuracy::is_last);
-
   m.def(
       "derivative_error",
       [](System& system, const Array<double>& direction, double size,
@@ -151,11 +138,4 @@ void contactx_bindings::newton(py::module_& m)
       [](System& system, const Array<double>& direction, double extent)
       { return least_derivative_error(system, view(direction), extent); },
       py::arg("system"), py::arg("direction"), py::arg("extent"));
-  m.def(
-      "residual_weight",
-      [](const Bodies& bodies, const Array<double>& diagonal,
-         const Array<double>& residual, int gdim)
-      { return residual_weight(bodies, view(diagonal), view(residual), gdim); },
-      py::arg("bodies"), py::arg("diagonal"), py::arg("residual"),
-      py::arg("gdim"));
 }

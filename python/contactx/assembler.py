@@ -216,7 +216,7 @@ class ContactAssembler:
         """
         prefix = snes.getOptionsPrefix() or ""
         linear = (
-            Condensed(self.bulk, self.system, self.bodies, prefix)
+            Condensed(self.bulk, self.system, self.core, prefix)
             if condensed
             else SaddlePoint(self.system)
         )
@@ -302,8 +302,6 @@ class ContactAssembler:
         self.report = report
         self._skipped = self.bulk.skipped
         self.system.begin_step()
-        if self._condensed is not None:
-            self._condensed.start(report)
         self.core.start(damped=report.damped)
         self.system.pack()
 
@@ -432,11 +430,8 @@ class ContactAssembler:
             return
         if self._condensed is None:
             prefix = ksp.getOptionsPrefix() or "contactx_"
-            self._condensed = Condensed(self.bulk, self.system, self.bodies, prefix)
+            self._condensed = Condensed(self.bulk, self.system, self.core, prefix)
             self.solvers.append(self._condensed)
-            self._condensed.start(self.report)
-        self._condensed.update(self.loop.free_bodies.springs)
-        self._condensed.follow(self.loop)
         self._condensed.hand_to(ksp)
 
     def _check_condensed(self, condensed: bool) -> None:

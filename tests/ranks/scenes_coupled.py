@@ -6,10 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any
-from unittest.mock import patch
 
 import contactx as cx
-from contactx._host.condensed import soft_stiff as solver
 from dolfinx.mesh import CellType
 
 from dam_face import Compression
@@ -21,6 +19,7 @@ from scenes import Blocks
 from scenes.coupled import Coupled, thermal
 from scenes.heat import HeatedBlocks
 from scenes.problems import make_problem
+from scenes.tuning import tuned
 from story import fix
 
 
@@ -111,7 +110,7 @@ def by_bodies_alike() -> Iterator[cx.ContactProblem]:
 
 def by_bodies_coarse_model() -> Iterator[cx.ContactProblem]:
     """A coarse model stands for the soft body."""
-    with patch.object(solver, "_MAX_ITERATIONS_WITH_SPRINGS", 0):
+    with tuned(max_spring_iterations=0):
         yield from _dragged_by_bodies(1e3, friction=0.3)
 
 

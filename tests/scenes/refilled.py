@@ -13,9 +13,9 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from contactx._host.factorised import FactorisedSolver
+from contactx._host.algebra import Algebra
+from contactx._host.bulk import Bulk
 from contactx._host.system import SaddlePointSystem
-from contactx.report import Report
 
 N = 24
 
@@ -46,12 +46,17 @@ class Refilled:
 def sizes(singular: Sequence[bool]) -> list[float]:
     """Largest entry of the solution of each of some systems in turn, with factors that are kept."""
     system = Refilled()
-    solver = FactorisedSolver(cast(SaddlePointSystem, system), "refilled_")
+    bulk = cast(Bulk, SimpleNamespace(comm=MPI.COMM_WORLD))
+    algebra = Algebra(bulk, cast(SaddlePointSystem, system), "refilled_")
+    solver = algebra.direct_solver()
     found = []
     for system.is_singular in singular:
         b, x = system.jacobian(None, None).createVecs()
         b.set(1.0)
-        solver.solve(b, x, 1e-9, None, Report(), last=False)
+        solver.assemble(np.zeros(0))
+        x.set(np.inf)
+        if solver.factorise():
+            solver.solve(b.array_r, x.array, 1e-9, 40)
         found.append(float(x.norm(PETSc.NormType.INFINITY)))
     return found
 

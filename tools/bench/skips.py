@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,6 @@ import contactx as cx
 from contactx import cpp as core
 from contactx._host import linear
 from contactx._host.blocks import Blocks
-from contactx._host.condensed.multigrid import Multigrid
 from contactx.assembler import ContactAssembler
 from dolfinx.io.gmsh import MeshData
 from dolfinx.mesh import CellType
@@ -28,6 +28,7 @@ import meshes
 import scenes
 import story
 from meshes import Tag
+from scenes.tuning import tuned
 
 # Not the default on the coarse meshes that try these scripts out
 CONDENSED: dict[str, Any] = {"petsc_options": {"pc_type": "condensed"}}
@@ -134,29 +135,6 @@ def _jacobian_each_time() -> AbstractContextManager[None]:
     return _replaced(Blocks, __init__=init)
 
 
-def _hierarchy_each_time() -> AbstractContextManager[None]:
-    """A hierarchy that is forgotten before any solve."""
-    before = Multigrid.solve
-
-    def solve(self: Multigrid, *args: Any) -> bool:
-        self.reset()
-        return before(self, *args)
-
-    return _replaced(Multigrid, solve=solve)
-
-
-def _exact() -> AbstractContextManager[None]:
-    """Solves as accurate as a status asks for that no longer changes."""
-    before = core.Accuracy.set
-
-    def exactly(
-        self: core.Accuracy, residual: float, tolerance: float, changing: float, has_cycled: bool
-    ) -> None:
-        before(self, residual, tolerance, 0.0, has_cycled)
-
-    return _replaced(core.Accuracy, set=exactly)
-
-
 def _pattern_each_time() -> AbstractContextManager[None]:
     """A new matrix for each factorisation."""
     before = linear.SaddlePoint.update
@@ -205,9 +183,13 @@ SKIPS = {
         off={"search_distance": None},
     ),
     "bulk Jacobian once": Skip("assembled when u changes", replaced=_jacobian_each_time),
-    "hierarchies kept": Skip("one for each solve", "hierarchy", replaced=_hierarchy_each_time),
+    "hierarchies kept": Skip(
+        "one for each solve", "hierarchy", replaced=partial(tuned, hierarchy_cost=-1)
+    ),
     "matrix's pattern kept": Skip("a new one each time", on=DIRECT, replaced=_pattern_each_time),
-    "rough early solves": Skip("all to the tolerance", "Krylov", replaced=_exact),
+    "rough early solves": Skip(
+        "all to the tolerance", "Krylov", replaced=partial(tuned, roughness=1e-9)
+    ),
     "pairs kept, tree refitted": Skip(
         "built, searched anew", "settle", on={"sliding": "finite"}, replaced=_search_anew
     ),

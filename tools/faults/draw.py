@@ -30,7 +30,7 @@ PARTS = {
     "solve": ("cpp/contactx/solve",),
     "geometry": ("cpp/contactx/geometry",),
     "search": ("cpp/contactx/search",),
-    "condensation": ("cpp/contactx/condense", "python/contactx/_host/condensed"),
+    "condensation": ("cpp/contactx/condense",),
     "audit": ("cpp/contactx/audit",),
     "steps": (
         "python/contactx/steps.py",

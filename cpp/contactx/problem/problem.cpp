@@ -66,8 +66,8 @@ Problem::Problem(std::shared_ptr<solve::System> system,
                  std::shared_ptr<const mesh::Bodies> bodies,
                  std::vector<Part> parts, bool refuses)
     : _system(std::move(system)), _halo(_system->halo()),
-      _parts(std::move(parts)), _refuses(refuses),
-      _loop(_system, std::move(bodies)),
+      _bodies(std::move(bodies)), _parts(std::move(parts)),
+      _refuses(refuses), _loop(_system, _bodies),
       _size(std::ranges::max(
           mesh::extent(_halo->ranks(),
                        _halo->reference().first(_system->num_displacements()),
@@ -435,6 +435,7 @@ void Problem::read_values()
 
 void Problem::start(bool damped)
 {
+  ++_starts;
   _has_begun = _has_moved = false;
   _found.reset();
   _number = 0;
@@ -736,6 +737,7 @@ std::vector<std::shared_ptr<results::Results>> Problem::results() const
 
 void Problem::restore()
 {
+  ++_restores;
   if (_before)
     _before->restore();
   _has_begun = false;

@@ -155,6 +155,15 @@ public:
   /// @brief Linear solves of the step so far.
   int number() const { return _number; }
 
+  /// @brief How often a step was started so far, attempts counted one by one.
+  int starts() const { return _starts; }
+
+  /// @brief How often a step was taken back so far.
+  int restores() const { return _restores; }
+
+  /// @brief The bodies.
+  const std::shared_ptr<const mesh::Bodies>& bodies() const { return _bodies; }
+
   /// @brief True if a step has begun, and was neither accepted nor restored.
   bool has_begun() const { return _has_begun; }
 
@@ -334,6 +343,7 @@ private:
 
   std::shared_ptr<solve::System> _system;
   std::shared_ptr<mesh::Halo> _halo;
+  std::shared_ptr<const mesh::Bodies> _bodies;
   std::vector<Part> _parts;
   bool _refuses, _may_fly = false;
   solve::Loop _loop;
@@ -345,6 +355,7 @@ private:
   Report _report;
   std::optional<Settled> _found;
   int _number = 0;
+  int _starts = 0, _restores = 0;
   // Whether the values of the contacts have been read, a step has begun, a part
   // of it was taken since the last iterate was judged, and a step was accepted
   bool _has_values = false, _has_begun = false, _has_moved = false,

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <contactx/solve/accuracy.h>
-#include <contactx/solve/residual_weights.h>
+#include <contactx/condense/residual_weights.h>
 #include <gtest/gtest.h>
 #include <memory>
 #include <numeric>
@@ -11,7 +11,7 @@
 
 using namespace contactx;
 using solve::Accuracy;
-using solve::residual_weight;
+using condense::residual_weight;
 
 namespace
 {

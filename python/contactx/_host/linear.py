@@ -10,11 +10,10 @@ from types import SimpleNamespace
 from petsc4py import PETSc
 
 from contactx import cpp as core
-from contactx._host.bodies import Bodies
+from contactx._host.algebra import Algebra, Array
 from contactx._host.bulk import Bulk
 from contactx._host.callbacks import keeps_its_error, weakly
-from contactx._host.condensed.numbering import Array
-from contactx._host.condensed.solver import CondensedSolver
+from contactx._host.options import reproducible_options
 from contactx._host.system import SaddlePointSystem
 from contactx.report import Report
 
@@ -44,13 +43,6 @@ class LinearSolver(ABC):
         Args:
             springs: Stiffness added to the diagonal of the displacements, shape (num_dofs,); None
                 if none is.
-        """
-
-    def follow(self, loop: core.Loop) -> None:
-        """Set how accurate the next solve must be.
-
-        Args:
-            loop: The loop, which has tested an iterate.
         """
 
     def end_step(self, report: Report) -> None:
@@ -109,43 +101,36 @@ class SaddlePoint(LinearSolver):
 class Condensed(LinearSolver):
     """The condensed solver as a preconditioner that is exact; the Jacobian is not assembled."""
 
-    def __init__(self, bulk: Bulk, system: SaddlePointSystem, bodies: Bodies, prefix: str):
+    def __init__(self, bulk: Bulk, system: SaddlePointSystem, problem: core.Problem, prefix: str):
         """Create the solver.
 
         Args:
             bulk: The bulk.
             system: The coupled system.
-            bodies: The bodies.
+            problem: Driver of the load step, which it follows.
             prefix: Prefix of the PETSc options.
         """
-        self._bulk = bulk
         self._system = system
-        self._solver = CondensedSolver(bulk, system, bodies, prefix + "condensed_")
+        self._solver = core.CondensedSolver(problem, Algebra(bulk, system, prefix + "condensed_"))
         self._snes: PETSc.SNES | None = None
         self._has_ended = True
-        self._accuracy = core.Accuracy(system.has_friction)
         size = system.x.getSizes()
         self._A = PETSc.Mat().createPython((size, size), self._called(), comm=system.x.comm)
         self._A.setUp()
 
+    @property
+    def tuning(self) -> core.Tuning:
+        """Costs and limits, which may be changed."""
+        return self._solver.tuning
+
     def begin_step(self, snes: PETSc.SNES, report: Report) -> None:
         """See ``LinearSolver``."""
         self._snes = snes
-        self.start(report)
+        self._has_ended = False
         snes.setJacobian(weakly(self._jacobian), self._A)
         pc = snes.getKSP().getPC()
         pc.setType("python")
         pc.setPythonContext(self._called())
-
-    def start(self, report: Report) -> None:
-        """Start a step without a SNES.
-
-        Args:
-            report: Report whose times are added to.
-        """
-        self._has_ended = False
-        self._solver.begin_step(report)
-        self._accuracy.begin_step()
 
     def hand_to(self, ksp: PETSc.KSP) -> None:
         """Give a KSP the Jacobian, and this as its preconditioner.
@@ -160,26 +145,19 @@ class Condensed(LinearSolver):
         pc.setPythonContext(self._called())
 
     def update(self, springs: Array | None) -> None:
-        """See ``LinearSolver``."""
-        self._solver.springs = springs
-
-    def follow(self, loop: core.Loop) -> None:
-        """See ``LinearSolver``."""
-        row, has_cycled = loop.iterate, loop.active_set.cycles > 0
-        if self._solver.is_predicted:
-            self._accuracy.skip()
-        self._accuracy.set(row.residual, row.tolerance, loop.changing(), has_cycled)
-        self._solver.target = self._accuracy.target
-        self._solver.is_last = self._accuracy.is_last
+        """See ``LinearSolver``: the core knows them."""
 
     def end_step(self, report: Report) -> None:
         """See ``LinearSolver``."""
         self._has_ended = True
-        report.krylov = self._solver.iterations
-        report.hierarchies = self._solver.hierarchies
-        report.by_bodies = list(self._solver.by_bodies)
-        report.uncondensed = list(self._solver.direct)
-        report.factorisations = self._solver.factorisations
+        found = self._solver.statistics()
+        report.krylov = found.iterations
+        report.hierarchies = found.hierarchies
+        report.by_bodies = found.by_bodies
+        report.uncondensed = found.direct
+        report.factorisations = found.factorisations
+        for part, seconds in found.seconds.items():
+            report.times[part] = report.times.get(part, 0.0) + seconds
 
     def reset(self) -> None:
         """See ``LinearSolver``."""
@@ -189,11 +167,16 @@ class Condensed(LinearSolver):
             ksp = PETSc.KSP().create(comm=self._snes.comm)
             ksp.setOptionsPrefix(self._snes.getOptionsPrefix())
             self._snes.setKSP(ksp)
-        self._accuracy.reset()
 
     def skipped(self) -> dict[str, int]:
         """See ``LinearSolver``."""
-        return self._solver.skipped()
+        found = self._solver.statistics()
+        direct = len(found.direct)
+        others = direct + len(found.by_bodies)
+        return {
+            "hierarchy": max(0, found.solves - others - found.hierarchies),
+            "factorisation": max(0, direct - found.factorised),
+        }
 
     @keeps_its_error
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
@@ -207,8 +190,9 @@ class Condensed(LinearSolver):
     @keeps_its_error
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve J x = b; PETSc calls this."""
-        self._solver.solve(b, x)
+        with reproducible_options().in_database():
+            self._solver.solve(b.array_r, x.array)
 
     def mult(self, mat: PETSc.Mat, x: PETSc.Vec, y: PETSc.Vec) -> None:
         """Multiply, y = J x; PETSc calls this where the user takes another KSP."""
-        self._solver.multiply(x, y)
+        self._solver.multiply(x.array_r, y.array)

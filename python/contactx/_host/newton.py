@@ -177,7 +177,6 @@ class NewtonLoop:
             is_finite = np.isfinite(found.residual)
             return _CODE.DIVERGED_LINE_SEARCH if is_finite else _CODE.DIVERGED_FUNCTION_NANORINF
         self._update_jacobian()
-        self._linear.follow(self._loop)
         return _CODE.CONVERGED_ITERATING
 
     def _update_jacobian(self) -> None:

@@ -249,26 +249,6 @@ class SaddlePointSystem:
         """True if any contact measures slip."""
         return any(discrete.history is not None for discrete in self.discrete_contacts)
 
-    def contact_block(self, b: PETSc.Vec | None = None) -> core.ContactBlock:
-        """Assemble this rank's pairs.
-
-        Args:
-            b: Right-hand side; where it is zero the multipliers of open nodes are, and nothing is
-                assembled for them. Any right-hand side if None.
-        """
-        d = None if b is None else b.array_r[self.num_bulk :]
-        return core.ContactBlock(self.discrete_contacts, self.core.markers(), d=d)
-
-    def multiply_contact(self, contact: core.ContactBlock, x: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Multiply by the contacts' part of the Jacobian; all ranks must take part.
-
-        Args:
-            contact: What ``contact_block`` gave.
-            x: Vector of all unknowns.
-            y: Product, overwritten.
-        """
-        self.core.multiply(contact, x.array_r, y.array)
-
 
 def _add(A: PETSc.Mat, rows: Rows, which: npt.NDArray[np.int64] | None) -> None:
     """Add rows to a matrix: those of this rank, or some by their places."""

@@ -14,11 +14,7 @@ import stacked_blocks
 import contactx as cx
 import ufl
 from contactx import cpp as core
-from contactx._host import linear
-from contactx._host.condensed.chains import Chains
-from contactx._host.condensed.galerkin import Galerkin
-from contactx._host.condensed.multigrid import near_null_space
-from contactx._host.condensed.solver import CondensedSolver
+from contactx._host.algebra import Algebra, Hierarchy
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -27,6 +23,7 @@ import scenes
 from meshes import Tag
 from scenes import CELLS, Blocks, hertz_sphere
 from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.tuning import tuned
 from story import traction
 
 MORTAR = {"method": "surface-to-surface"}
@@ -72,14 +69,12 @@ def compare_one_solve(problem, rng):
     b[: system.num_bulk][problem.assembler.bulk.markers == 1] = 0
     J = system.jacobian().convert("dense").getDenseArray()
     exact = np.linalg.solve(J, b)
-    bodies = problem.assembler.bodies
-    solver = CondensedSolver(problem.assembler.bulk, system, bodies, "one_solve_")
-    solver.target = 1e-13 * np.linalg.norm(b)
-    right, result = system.x.duplicate(), system.x.duplicate()
-    right.array[:] = b
-    solver.solve(right, result)
-    assert not solver.direct
-    assert np.abs(result.array - exact).max() <= 1e-9 * np.abs(exact).max()
+    algebra = Algebra(problem.assembler.bulk, system, "one_solve_")
+    solver = core.CondensedSolver(problem.assembler.core, algebra)
+    result = np.empty_like(b)
+    solver.solve(b, result)
+    assert not solver.statistics().direct
+    assert np.abs(result - exact).max() <= 1e-9 * np.abs(exact).max()
 
 
 def both(create):
@@ -128,30 +123,6 @@ def test_a_status_that_comes_back_is_reported():
     for *_, report in (direct, condensed):
         assert report.cycles == 1
         assert "the status came back 1 times" in str(report)
-
-
-def condensed_blocks(friction):
-    scene = Blocks(CellType.triangle)
-    return scene.problem(scene.contact(friction=friction), petsc_options={"pc_type": "condensed"})
-
-
-@pytest.mark.parametrize("cycles", [0, 1])
-def test_solves_are_told_how_accurate_they_must_be(cycles, monkeypatch):
-    """By which rule: see test_accuracy.cpp."""
-    seen = []
-    set_accuracy = core.Accuracy.set
-
-    def noted(self, residual, tolerance, changing, has_cycled):
-        seen.append((residual > tolerance, changing, has_cycled))
-        set_accuracy(self, residual, tolerance, changing, has_cycled)
-
-    monkeypatch.setattr(core.ActiveSet, "cycles", cycles)
-    monkeypatch.setattr(core.Accuracy, "set", noted)
-    condensed_blocks(0.0).solve()
-    large, changing, has_cycled = zip(*seen, strict=True)
-    assert all(large)
-    assert any(changing)
-    assert set(has_cycled) == {cycles > 0}
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
@@ -309,13 +280,13 @@ def test_another_preconditioner_is_refused():
 
 
 def test_coarse_levels_are_kept_while_contact_hardly_changes(monkeypatch):
-    updates, update = [], Galerkin.update
+    updates, update = [], Hierarchy.update
 
-    def counted(self, *arguments):
+    def counted(self):
         updates.append(1)
-        update(self, *arguments)
+        update(self)
 
-    monkeypatch.setattr(Galerkin, "update", counted)
+    monkeypatch.setattr(Hierarchy, "update", counted)
     scene = Blocks(CellType.tetrahedron, n_upper=4, n_lower=3)
     problem = scene.problem(scene.contact(), petsc_options={"pc_type": "condensed"})
     for down, wanted in ((0.03, 1), (0.04, 0)):
@@ -342,60 +313,39 @@ def test_the_same_bits_wherever_vectors_lie():
     assert len(found) == 1
 
 
-@pytest.mark.parametrize("gdim", [2, 3])
-def test_rigid_modes_of_nodes_far_away(gdim):
-    rng = np.random.default_rng(3)
-    x = rng.random((40, gdim))
-    none = np.zeros(x.size, dtype=bool)
-    far = [mode.array for mode in near_null_space(x + 1e7, none, MPI.COMM_SELF).getVecs()]
-    assert np.allclose(far @ np.transpose(far), np.eye(gdim * (gdim + 1) // 2), atol=1e-12)
-    for mode in far:
-        # Distances stay
-        u, d = mode.reshape(x.shape), x[1:] - x[:-1]
-        assert np.allclose(np.sum((u[1:] - u[:-1]) * d, axis=1), 0, atol=1e-7)
-    held = rng.random(x.size) < 0.3
-    near = [mode.array for mode in near_null_space(x, held, MPI.COMM_SELF).getVecs()]
-    assert np.all(np.array(near)[:, held] == 0) and np.all(np.any(near, axis=1))
-
-
-def test_chains_whose_pattern_is_not_that_of_a_diagonal():
+def test_factors_of_a_pattern_that_is_not_that_of_a_diagonal():
     """PETSc's factors of such a matrix were made of what memory held, or ended the process."""
     columns = [(0, 1, 2), (0, 1, 2), range(6), (2, 3, 6), (2, 4, 6), (2, 5, 6), range(3, 9)]
     columns += [(6, 7, 8), (6, 7, 8)]
-    offsets = np.cumsum([0, *map(len, columns)]).astype(PETSc.IntType)
-    places = np.concatenate(columns).astype(PETSc.IntType)
+    rows = np.repeat(np.arange(9), list(map(len, columns)))
+    places = np.concatenate([rows, np.arange(9)]), np.concatenate([*columns, np.arange(9)])
     rng = np.random.default_rng(0)
+    algebra = Algebra(SimpleNamespace(comm=MPI.COMM_SELF), None, "factors_")
     for _ in range(300):
-        csr = offsets, places, 0.1 * rng.uniform(-1, 1, len(places))
-        C = PETSc.Mat().createAIJ((9, 9), csr=csr, comm=MPI.COMM_SELF)
-        numbering = SimpleNamespace(comm=MPI.COMM_SELF, matrix=lambda *_, C=C, **__: C)
-        chains = Chains(numbering, None, np.arange(9))
-        dense = np.eye(9) - C.convert("dense").getDenseArray()
+        values = np.r_[0.1 * rng.uniform(-1, 1, len(rows)), np.ones(9)]
+        A = algebra.matrix(9, 9, *places, values)
+        dense = A.convert("dense", PETSc.Mat()).getDenseArray()
+        factors = algebra.factorise(A, "chains", False, 1, False)
+        assert factors.is_good
         b = rng.standard_normal(9)
-        x = b.copy()
-        chains.solve_at(x, np.arange(9))
+        x = np.empty(9)
+        factors.solve(b, x, False)
         np.testing.assert_allclose(dense @ x, b, atol=1e-12)
+        factors.solve(b, x, True)
+        np.testing.assert_allclose(dense.T @ x, b, atol=1e-12)
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_hertz_with_friction(method, monkeypatch):
+def test_hertz_with_friction(method):
     """Exact solves, solves that are as rough as the loop asks for, and far more accurate ones."""
-    follow = linear.Condensed.follow
-    part = 1.0
-
-    def scaled(self, loop):
-        follow(self, loop)
-        if not self._solver.is_last:
-            self._solver.target *= part
-
-    monkeypatch.setattr(linear.Condensed, "follow", scaled)
     data = meshes.hertz_sphere(0.05)
     answers, krylov = [], []
     for solver, part in (("lu", 1.0), ("condensed", 1.0), ("condensed", 1e-3)):
-        scene = scenes.HertzSphere(
-            data, "finite", method=method, friction=0.3,
-            petsc_options={"pc_type": solver},
-        )  # fmt: skip
+        with tuned(roughness=part):
+            scene = scenes.HertzSphere(
+                data, "finite", method=method, friction=0.3,
+                petsc_options={"pc_type": solver},
+            )  # fmt: skip
         scene.problem.solve()
         answers.append((scene.problem.u.x.array, scene.contact.multiplier))
         krylov.append(scene.problem.report.krylov)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactx._host import compat
-from contactx._host.condensed import predictor, soft_stiff, solver
+from contactx._host.algebra import Algebra
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -19,6 +19,7 @@ from scenes.covering import METHODS, covering
 from scenes.driven import DrivenBlock
 from scenes.problems import make_problem, pair_of
 from scenes.refilled import LARGEST, sizes
+from scenes.tuning import tuned
 from story import displacement, elasticity, fix, traction
 
 MORTAR = {"method": "surface-to-surface"}
@@ -93,13 +94,13 @@ def test_stiff_masters_cost_few_iterations():
 @pytest.fixture
 def with_model(monkeypatch):
     """Take the coarse model of soft bodies at once."""
-    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
     made = []
-    of = soft_stiff.CoarseModel.of
+    aggregate = Algebra.aggregate
     monkeypatch.setattr(
-        soft_stiff.CoarseModel, "of", lambda *args: made.append(of(*args)) or made[-1]
+        Algebra, "aggregate", lambda *args: made.append(aggregate(*args)) or made[-1]
     )
-    return made
+    with tuned(max_spring_iterations=0):
+        yield made
 
 
 @covering(cell=CELLS, law=LAWS, sliding=("finite", "small"))
@@ -109,24 +110,6 @@ def test_a_coarse_model_has_the_same_answer(cell, law, sliding, with_model):
     for a, b in zip(direct[:2], found[:2], strict=True):
         assert np.abs(a - b).max() <= 1e-8 * np.abs(a).max()
     assert not any(report.uncondensed for report in found[2])
-
-
-def test_no_solve_is_finer_than_an_iterate_needs(monkeypatch):
-    """However soft the softest body is."""
-    parts = []
-    solve = solver.CondensedSolver._solve_condensed
-
-    def note(self, operator, rhs, v, target):
-        if not self.is_last:
-            parts.append((target / rhs.norm(), self.target / rhs.norm()))
-        return solve(self, operator, rhs, v, target)
-
-    monkeypatch.setattr(solver.CondensedSolver, "_solve_condensed", note)
-    monkeypatch.setattr(solver.CondensedOperator, "softness", lambda *args: 1e-9)
-    both(dragged(CellType.hexahedron, 1e4, "small", friction=0.3))
-    for part, asked in parts:
-        assert part >= min(asked, 0.999e-11)
-    assert any(part == pytest.approx(1e-11) for part, _ in parts)
 
 
 def test_factors_serve_where_nothing_changes():
@@ -139,14 +122,15 @@ def test_factors_serve_where_nothing_changes():
 def test_nodes_are_ordered_as_groups(is_held, monkeypatch):
     """Not where a node is partly in a block."""
     groups = []
-    factorised = soft_stiff._factorised
+    factorise = Algebra.factorise
 
-    def note(*args):
-        ksp = factorised(*args)
-        groups.append((args[-1], -ksp.getPC().getFactorMatrix().getMumpsIcntl(15)))
-        return ksp
+    def note(self, A, name, is_symmetric, group, is_rough):
+        factors = factorise(self, A, name, is_symmetric, group, is_rough)
+        mumps = factors._ksp.getPC().getFactorMatrix()
+        groups.append((group, -mumps.getMumpsIcntl(15)))
+        return factors
 
-    monkeypatch.setattr(soft_stiff, "_factorised", note)
+    monkeypatch.setattr(Algebra, "factorise", note)
 
     def create(options):
         scene = Blocks(CellType.hexahedron, n_upper=3, n_lower=4, gap=1e-9, stiffness=1e4)
@@ -195,13 +179,6 @@ def test_units_do_not_matter(stiffness, monkeypatch):
 
 
 STEPS = 8
-
-
-@pytest.mark.parametrize("order", [1, 2, 3, 4])
-def test_values_of_a_polynomial_go_on(order):
-    coefficients = np.arange(1.0, order + 1)[:, None] * [[1.0, -2.0]]
-    values = [sum(c * k**i for i, c in enumerate(coefficients)) for k in range(order + 1)]
-    np.testing.assert_allclose(predictor._next(values[-2::-1]), values[-1], rtol=1e-13)
 
 
 def pressed(method, solver, load_at):

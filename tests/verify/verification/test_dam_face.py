@@ -7,7 +7,6 @@ import pytest
 from matplotlib import image
 
 import ufl
-from contactx._host.condensed import soft_stiff
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -18,6 +17,7 @@ from dam_scene import Dam, DamSetting, run
 from duncan_chang import ATMOSPHERE, DuncanChang
 from meshes import DamFace, Tag
 from scenes.problems import make_problem, pair_of
+from scenes.tuning import tuned
 from story import displacement, elasticity, fix
 
 # With fewer cells, or wider ones at the joints, nodes near the plinth stick and open in turn
@@ -95,25 +95,20 @@ def count_factorisations(dam):
     return sum(counts)
 
 
-def test_factors_serve_the_less_the_more_a_solve_is_to_reduce(dam, monkeypatch):
-    """With a hundredth of the reduction old factors serve longer, were they never dear."""
-    monkeypatch.setattr(soft_stiff, "_FACTORISATION_COST", 10**6)
-    many = count_factorisations(dam)
-    update = soft_stiff.SoftStiffSolver._update
-
-    def rougher(self, operator, reduction, report):
-        update(self, operator, reduction and 0.01 * reduction, report)
-
-    monkeypatch.setattr(soft_stiff.SoftStiffSolver, "_update", rougher)
-    assert count_factorisations(dam) < many
+def test_factors_serve_the_longer_the_larger_the_change_that_they_may_have(dam):
+    """Were they never dear."""
+    with tuned(block_cost=10**6):
+        many = count_factorisations(dam)
+    with tuned(block_cost=10**6, max_change_of_stiff=15.0):
+        assert count_factorisations(dam) < many
 
 
-def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam, monkeypatch):
+def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam):
     """However large the change for which they are to serve."""
-    monkeypatch.setattr(soft_stiff, "_MAX_CHANGE_OF_STIFF", 1e9)
-    few = count_factorisations(dam)
-    monkeypatch.setattr(soft_stiff, "_FACTORISATION_COST", 1)
-    assert count_factorisations(dam) > few
+    with tuned(max_change_of_stiff=1e9):
+        few = count_factorisations(dam)
+    with tuned(max_change_of_stiff=1e9, block_cost=1):
+        assert count_factorisations(dam) > few
 
 
 def count_iterations():
@@ -134,16 +129,16 @@ def with_springs():
 # those of its own choice on an AMD EPYC
 @pytest.mark.parametrize("short_waves, saved", [(0.0, 0.1), (1.0, 0.0)])
 def test_springs_lie_between_those_for_long_waves_and_for_short_ones(
-    short_waves, saved, with_springs, monkeypatch
+    short_waves, saved, with_springs
 ):
-    monkeypatch.setattr(soft_stiff, "_SHORT_WAVE_EXPONENT", short_waves)
-    assert with_springs <= (1 - saved) * count_iterations()
+    with tuned(short_wave_exponent=short_waves):
+        assert with_springs <= (1 - saved) * count_iterations()
 
 
-def test_a_coarse_model_takes_fewer_iterations(with_springs, monkeypatch):
+def test_a_coarse_model_takes_fewer_iterations(with_springs):
     """What it is for where springs take too many."""
-    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
-    assert count_iterations() <= 0.8 * with_springs
+    with tuned(max_spring_iterations=0):
+        assert count_iterations() <= 0.8 * with_springs
 
 
 def test_demo(tmp_path, capsys):
@@ -298,12 +293,7 @@ def sheet_iterations(length):
     return problem.report.krylov / problem.report.iterations
 
 
-@pytest.fixture
-def coarse_model(monkeypatch):
-    """The coarse model."""
-    monkeypatch.setattr(soft_stiff, "_MAX_ITERATIONS_WITH_SPRINGS", 0)
-
-
-def test_iterations_with_the_coarse_model_hardly_grow(coarse_model):
+def test_iterations_with_the_coarse_model_hardly_grow():
     """Over eight times the length, as from 5 to 40 slabs of a dam."""
-    assert sheet_iterations(64) <= 1.5 * sheet_iterations(8)
+    with tuned(max_spring_iterations=0):
+        assert sheet_iterations(64) <= 1.5 * sheet_iterations(8)

@@ -6,7 +6,7 @@
 #include "../mesh/bodies.h"
 #include <span>
 
-namespace contactx::solve
+namespace contactx::condense
 {
 /// @brief Part of a residual that counts for the softest body; collective.
 ///
@@ -32,4 +32,4 @@ namespace contactx::solve
 double residual_weight(const mesh::Bodies& bodies,
                        std::span<const double> diagonal,
                        std::span<const double> residual, int gdim);
-} // namespace contactx::solve
+} // namespace contactx::condense

@@ -14,10 +14,10 @@ namespace
 constexpr double equal_stiffness_ratio = 10;
 } // namespace
 
-double contactx::solve::residual_weight(const mesh::Bodies& bodies,
-                                        std::span<const double> diagonal,
-                                        std::span<const double> residual,
-                                        int gdim)
+double contactx::condense::residual_weight(const mesh::Bodies& bodies,
+                                           std::span<const double> diagonal,
+                                           std::span<const double> residual,
+                                           int gdim)
 {
   const mesh::NodeMap& nodes = bodies.map();
   nodes.ranks().agree(

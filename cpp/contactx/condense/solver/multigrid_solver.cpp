@@ -1,0 +1,149 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "multigrid_solver.h"
+#include <algorithm>
+
+using namespace contactx;
+using namespace contactx::condense;
+
+std::vector<std::vector<double>>
+contactx::condense::rigid_modes(mesh::Ranks& ranks, std::span<const double> x,
+                                std::span<const std::int8_t> prescribed,
+                                int gdim)
+{
+  // About the origin of a far body rotations are all but translations, and lost
+  // in round-off
+  std::vector<double> middle(gdim + 1, 0);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    middle[i % gdim] += x[i];
+  middle[gdim] = static_cast<double>(x.size()) / gdim;
+  ranks.reduce(std::span<double>(middle), mesh::Reduction::sum);
+
+  std::vector<std::vector<double>> modes;
+  const auto free = [&](std::size_t i) { return prescribed[i] ? 0.0 : 1.0; };
+  for (int k = 0; k < gdim; ++k)
+  {
+    auto& mode = modes.emplace_back(x.size(), 0);
+    for (std::size_t i = k; i < x.size(); i += gdim)
+      mode[i] = free(i);
+  }
+  for (int axis = 0; axis < (gdim == 2 ? 1 : 3); ++axis)
+  {
+    // Rotations in the planes (0, 1), (1, 2) and (0, 2)
+    const int a = axis % 2, b = std::min(axis + 1, 2);
+    auto& mode = modes.emplace_back(x.size(), 0);
+    for (std::size_t i = 0; i < x.size(); i += gdim)
+    {
+      mode[i + a] = free(i + a) * (middle[b] / middle[gdim] - x[i + b]);
+      mode[i + b] = free(i + b) * (x[i + a] - middle[a] / middle[gdim]);
+    }
+  }
+  for (auto& mode : modes)
+    if (const double size = norm(ranks, mode); size > 0)
+      for (double& value : mode)
+        value /= size;
+  return modes;
+}
+
+bool MultigridSolver::solve(std::shared_ptr<CondensedOperator> K_c,
+                            std::span<const double> rhs, std::span<double> v,
+                            double target, int slow)
+{
+  _K_c = std::move(K_c);
+  if (_lost > _tuning.hierarchy_cost)
+    reset();
+  if (not _hierarchy)
+    build();
+  if (_updated_for != _K_c)
+  {
+    const ContactUpdate change = _K_c->contact_update();
+    _serves = _galerkin->nearly_serves(change);
+    update(change, not _serves);
+  }
+  if (iterate(rhs, v, target, slow))
+    return true;
+  if (_serves)
+  {
+    _serves = false;
+    update(_K_c->contact_update(), true);
+    if (iterate(rhs, v, target, slow))
+      return true;
+  }
+  if (_built_at != _algebra.assemblies())
+  {
+    build();
+    update(_K_c->contact_update(), true);
+    if (iterate(rhs, v, target, slow))
+      return true;
+  }
+  reset();
+  return false;
+}
+
+void MultigridSolver::reset()
+{
+  _hierarchy.reset();
+  _galerkin.reset();
+  _updated_for.reset();
+}
+
+bool MultigridSolver::iterate(std::span<const double> rhs, std::span<double> v,
+                              double target, int slow)
+{
+  const double reduction = _K_c->reduction(rhs, v, target);
+  const int most = 20 + static_cast<int>(slow * reduction);
+  // Pressures on turning normals and bodies without support may leave a matrix
+  // indefinite
+  for (bool symmetric = _K_c->is_symmetric();; symmetric = false)
+  {
+    Iterations done;
+    {
+      const Timing timing(_algebra, "Krylov");
+      done = _hierarchy->solve(rhs, v, symmetric, target, most);
+    }
+    _iterations += done.count;
+    if (_built_at == _algebra.assemblies())
+      _rate = std::max(_rate, done.count / reduction);
+    else
+      _lost += std::max(0.0, done.count - _rate * reduction);
+    if (done.converged())
+      return true;
+    std::ranges::fill(v, 0);
+    if (not symmetric or done.end != Iterations::End::indefinite)
+      return false;
+  }
+}
+
+void MultigridSolver::build()
+{
+  const Timing timing(_algebra, "hierarchy");
+  reset();
+  const Numbering& numbering = _K_c->numbering();
+  const int g = numbering.gdim();
+  // Rows of prescribed displacements have a one and no neighbours
+  _hierarchy = _algebra.hierarchy(
+      _algebra.bulk_copy(),
+      rigid_modes(numbering.ranks(),
+                  numbering.halo().reference().first(numbering.num_owned()),
+                  _algebra.prescribed(), g),
+      g, [this](std::span<const double> v, std::span<double> y)
+      { _K_c->multiply(v, y); });
+  _galerkin = std::make_unique<Galerkin>(numbering,
+                                         _algebra.bulk_rows(_K_c->slave_dofs()),
+                                         _hierarchy->prolongations());
+  _built_at = _algebra.assemblies();
+  _rate = _lost = 0;
+  ++_hierarchies;
+}
+
+void MultigridSolver::update(const ContactUpdate& change, bool coarse)
+{
+  const Timing timing(_algebra, "condensation");
+  _updated_for = _K_c;
+  _hierarchy->set_diagonal(change.bound);
+  if (not coarse or _hierarchy->matrices().empty())
+    return;
+  _galerkin->update(change, _hierarchy->matrices());
+  _hierarchy->update();
+}

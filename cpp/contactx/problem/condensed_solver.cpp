@@ -1,0 +1,297 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "condensed_solver.h"
+#include "../condense/contact_block.h"
+#include <algorithm>
+
+using namespace contactx;
+using namespace contactx::problem;
+using condense::CondensedOperator;
+
+namespace
+{
+// Reasons, as reports say them
+constexpr const char* slow_multigrid = "multigrid is slow here";
+constexpr const char* by_option = "condensed_pc_type asks for it";
+constexpr const char* retained_multipliers
+    = "a slave node with a prescribed displacement moves its master";
+// Residual of a predicted solution over the tolerance of a solve, up to which
+// it is taken: Newton's method leaves as much
+constexpr double max_predicted_residual = 300;
+// Residual over right-hand side that no iterate needs to fall below
+constexpr double min_rtol = 1e-11;
+// Failures after which a solver is not tried again: what does not converge
+// twice will not, and each attempt is dear
+constexpr int max_failures = 2;
+
+bool has_path(const solve::System& system)
+{
+  return std::ranges::any_of(system.contacts(), [](const auto& c)
+                             { return c->history() != nullptr; });
+}
+} // namespace
+
+CondensedSolver::CondensedSolver(Problem& problem,
+                                 std::shared_ptr<condense::Algebra> algebra)
+    : _problem(problem), _algebra(std::move(algebra)),
+      _accuracy(has_path(*problem.system())), _multigrid(*_algebra, tuning),
+      _soft_stiff(*_algebra, problem.bodies(), tuning),
+      _factorised(*_algebra, tuning)
+{
+}
+
+void CondensedSolver::reset()
+{
+  _failures = _failures_before;
+  _numbering.reset();
+  _halo_version = -1;
+  _predictor.reset();
+  _multigrid.reset();
+  _soft_stiff.reset();
+  _factorised.reset();
+  _accuracy.reset();
+}
+
+/// Brings it up to the problem's step and iterate.
+void CondensedSolver::follow()
+{
+  if (_problem.restores() != _restores)
+  {
+    _restores = _problem.restores();
+    reset();
+  }
+  if (_problem.starts() != _starts)
+  {
+    _starts = _problem.starts();
+    _number = -1;
+    _failures_before = _failures;
+    std::vector<double> now(_problem.system()->size());
+    _problem.system()->unknowns(now);
+    _predictor.begin_step(std::move(now));
+    _multigrid.begin_step();
+    _soft_stiff.begin_step();
+    _factorised.begin_step();
+    _accuracy.begin_step();
+    _statistics = {};
+    _algebra->seconds.clear();
+    _is_predicted = false;
+  }
+}
+
+CondensedSolver::Statistics CondensedSolver::statistics()
+{
+  follow();
+  Statistics found = _statistics;
+  found.iterations = _multigrid.iterations() + _soft_stiff.iterations()
+                     + _factorised.iterations();
+  found.hierarchies = _multigrid.hierarchies();
+  found.seconds = _algebra->seconds;
+  found.factorised = _factorised.factorisations();
+  found.factorisations = _soft_stiff.factorisations() + found.factorised;
+  return found;
+}
+
+void CondensedSolver::solve(std::span<const double> b, std::span<double> x)
+{
+  follow();
+  if (_problem.number() != _number)
+  {
+    _number = _problem.number();
+    const solve::Loop& loop = _problem.loop();
+    const solve::Iterate& now = loop.iterate();
+    if (_is_predicted)
+      _accuracy.skip();
+    _accuracy.set(now.residual, now.tolerance, loop.changing(),
+                  loop.active_set().cycles() > 0);
+  }
+  ++_statistics.solves;
+  _is_predicted = false;
+  if (_failures.bodies == max_failures)
+    return solve_directly(b, x, slow_multigrid);
+  try
+  {
+    if (not solve_condensed(b, x))
+      solve_directly(b, x, slow_multigrid);
+  }
+  catch (const condense::NotCondensable& reason)
+  {
+    solve_directly(b, x, reason.what());
+  }
+}
+
+/// What the norm of the residual of the next solve must fall below.
+double CondensedSolver::target() const
+{
+  return (_accuracy.is_last() ? 1 : tuning.roughness) * _accuracy.target();
+}
+
+std::span<const double> CondensedSolver::springs() const
+{
+  const auto& springs = _problem.loop().free_bodies().springs();
+  return springs ? std::span<const double>(*springs)
+                 : std::span<const double>();
+}
+
+/// Eliminates the multipliers.
+std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
+{
+  const condense::Timing timing(*_algebra, "condensation");
+  const solve::System& system = *_problem.system();
+  const mesh::Halo& halo = *system.halo();
+  if (_halo_version != halo.version())
+  {
+    _halo_version = halo.version();
+    _numbering = std::make_shared<condense::Numbering>(halo, *_algebra);
+  }
+  const std::vector<std::int8_t> prescribed = system.markers();
+  std::vector<std::int8_t> free;
+  for (const std::int8_t p : prescribed)
+    free.push_back(p == 0);
+  std::vector<condense::Nodes> nodes;
+  for (const auto& contact : system.contacts())
+    nodes.push_back(condense::nodes_of(*contact));
+  std::shared_ptr<const condense::Condensation> made;
+  try
+  {
+    halo.ranks().agree(
+        [&]
+        {
+          const condense::ContactBlock block(system.contacts(), prescribed,
+                                             false,
+                                             b.subspan(system.num_bulk()));
+          made = std::make_shared<condense::Condensation>(
+              block.entries(), nodes, free, halo.gdim(), true);
+        });
+  }
+  catch (const std::runtime_error& reason)
+  {
+    // Other ranks than the one that has found it have no more than its words
+    throw condense::NotCondensable(reason.what());
+  }
+  _condensation = made;
+  _algebra->update_bulk();
+  // Before the operator takes the bulk, of which a host may keep half then
+  _algebra->bulk_rows(made->elimination().slave_dofs());
+  const auto own = springs();
+  return std::make_shared<CondensedOperator>(
+      _numbering, std::move(made), std::vector<double>(own.begin(), own.end()));
+}
+
+bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
+{
+  const std::shared_ptr<CondensedOperator> K_c = condensed(b);
+  const condense::Condensation& condensation = *_condensation;
+  const solve::System& system = *_problem.system();
+  const std::size_t n = _numbering->num_owned();
+  const Spans given = b.first(n), constraints = b.subspan(n);
+  const auto prescribed = _algebra->prescribed();
+
+  auto right = condensation.right_hand_side(constraints);
+  std::vector<double> w = _numbering->reverse(std::move(right.forces));
+  for (std::size_t i = 0; i < n; ++i)
+    w[i] += given[i];
+  for (std::size_t i = 0; i < K_c->retained().dofs.size(); ++i)
+    w[K_c->retained().dofs[i]] = right.retained[i];
+  std::vector<double> balance = w, h(right.shift.begin(),
+                                     right.shift.begin() + std::ptrdiff_t(n));
+  K_c->place(h);
+  std::vector<double> work(n), rhs(n), v(n, 0);
+  K_c->multiply_bulk(h, work);
+  for (std::size_t i = 0; i < n; ++i)
+    w[i] -= work[i];
+  K_c->combine(w, rhs);
+  K_c->add_law(h, rhs, -1);
+  for (std::size_t i = 0; i < n; ++i)
+    rhs[i] += right.extra[i];
+  for (const std::int32_t dof : K_c->eliminated())
+    rhs[dof] = 0;
+
+  const auto predicted = _predictor.start(*K_c, system.factors(), b, rhs, v,
+                                          max_predicted_residual * target());
+  _is_predicted = predicted.has_value();
+  if (predicted)
+  {
+    std::ranges::copy(*predicted, x.begin());
+    return true;
+  }
+  double target = this->target();
+  if (not _accuracy.is_last())
+  {
+    // A small part of what loads a stiff body is much for a soft one
+    const double weight = K_c->residual_weight(*_problem.bodies(), given);
+    target = std::min(
+        target, std::max(target * weight,
+                         min_rtol * condense::norm(_numbering->ranks(), rhs)));
+  }
+  if (not iterate(K_c, rhs, v, target))
+    return false;
+  K_c->expand(v, work);
+  for (std::size_t i = 0; i < n; ++i)
+    h[i] += work[i];
+  K_c->multiply_bulk(h, work);
+  for (std::size_t i = 0; i < n; ++i)
+    balance[i] -= work[i];
+  K_c->release(balance);
+  condensation.recover(constraints, balance, _numbering->forward(h),
+                       right.multipliers);
+  for (std::size_t i = 0; i < n; ++i)
+    x[i] = prescribed[i] ? given[i] : h[i];
+  for (std::size_t i = 0; i < right.multipliers.size(); ++i)
+    x[n + i] = right.multipliers[i] / system.factors()[i];
+  return true;
+}
+
+/// Solves the condensed system, by multigrid where it is fast; whether
+/// iterations converged.
+bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c, Spans rhs,
+                              std::span<double> v, double target)
+{
+  const bool is_needed
+      = mesh::anywhere(_numbering->ranks(), not K_c->retained().dofs.empty());
+  const bool is_asked = _algebra->preconditioner() == "bodies";
+  if (not is_needed and not is_asked and _failures.multigrid < max_failures)
+  {
+    // Where bodies can be told apart the other solver is fast: one slow solve
+    // tells enough
+    const bool is_mixed = _soft_stiff.tells_apart(*K_c);
+    if (_multigrid.solve(K_c, rhs, v, target,
+                         is_mixed ? tuning.slow_rate_of_mixed
+                                  : tuning.slow_rate))
+      return true;
+    _failures.multigrid += is_mixed ? max_failures : 1;
+  }
+  const bool is_solved = _soft_stiff.solve(K_c, rhs, v, target);
+  if (is_solved)
+    _statistics.by_bodies.push_back(is_needed  ? retained_multipliers
+                                    : is_asked ? by_option
+                                               : slow_multigrid);
+  else
+    ++_failures.bodies;
+  return is_solved;
+}
+
+void CondensedSolver::solve_directly(Spans b, std::span<double> x,
+                                     std::string reason)
+{
+  _statistics.direct.push_back(std::move(reason));
+  // With factors one more digit costs nothing
+  const double target = (_accuracy.is_last() ? 0.1 : 1.0) * this->target();
+  _factorised.solve(b, x, target, springs(), _accuracy.is_last());
+}
+
+void CondensedSolver::multiply(std::span<const double> x, std::span<double> y)
+{
+  const solve::System& system = *_problem.system();
+  const condense::ContactBlock block(system.contacts(), system.markers());
+  system.multiply(block, x, y);
+  const std::size_t n = system.num_displacements();
+  _algebra->update_bulk();
+  std::vector<double> w(n);
+  _algebra->multiply(*_algebra->bulk(), x.first(n), w);
+  for (std::size_t i = 0; i < n; ++i)
+    y[i] += w[i];
+  const auto own = springs();
+  for (std::size_t i = 0; i < own.size(); ++i)
+    y[i] += own[i] * x[i];
+}

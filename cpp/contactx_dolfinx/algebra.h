@@ -1,0 +1,249 @@
+// Copyright (C) 2026 contactx authors
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#pragma once
+
+#include "assembler.h"
+#include "krylov.h"
+#include <random>
+
+namespace contactx_dolfinx
+{
+/// @brief GMRES with the factors of an older Jacobian of an assembler.
+class DirectSolver final : public contactx::condense::DirectSolver
+{
+public:
+  /// @brief Take the system.
+  /// @param[in] assembler The system; it must outlive this.
+  /// @param[in] prefix Prefix of PETSc's options.
+  DirectSolver(Assembler& assembler, std::string prefix)
+      : _assembler(&assembler), _prefix(std::move(prefix))
+  {
+  }
+
+  void assemble(std::span<const double> springs) override
+  {
+    if (_A.get() == nullptr)
+    {
+      *_A.put() = _assembler->create_matrix();
+      _jacobian.emplace(_assembler->system(), _assembler->bulk());
+    }
+    std::optional<std::vector<double>> given;
+    // Empty is also what a rank without displacements has
+    if (petsc::anywhere(petsc::comm_of(_A.get()), not springs.empty()))
+      given.emplace(springs.begin(), springs.end());
+    _jacobian->assemble(_A.get(), given);
+  }
+
+  bool factorise() override
+  {
+    const ::Mat A = _A.get();
+    PetscObjectState pattern = 0;
+    petsc::check(MatGetNonzeroState(A, &pattern), "MatGetNonzeroState");
+    // Two factorisations at once would be the largest part of the memory
+    if (std::exchange(_pattern, pattern) != pattern)
+      _krylov.reset();
+    // The options of factors are read from the database when they are made
+    petsc::Options options = petsc::direct_options();
+    options["ksp_type"] = "gmres";
+    options["ksp_pc_side"] = "right";
+    options["ksp_gmres_restart"] = "60";
+    const petsc::Defaults defaults(_prefix, options);
+    if (not _krylov)
+    {
+      _krylov.emplace(petsc::comm_of(A), petsc::num_rows(A));
+      petsc::check(KSPSetOptionsPrefix(_krylov->ksp(), _prefix.c_str()),
+                   "KSPSetOptionsPrefix");
+      petsc::check(KSPSetFromOptions(_krylov->ksp()), "KSPSetFromOptions");
+    }
+    // A matrix of the same pattern needs no new analysis
+    petsc::keep_preconditioner(_krylov->pc(), false);
+    petsc::set_operators(_krylov->ksp(), A, A);
+    _krylov->set_up();
+    petsc::keep_preconditioner(_krylov->pc(), true);
+    if (_krylov->is_good())
+      return true;
+    // PETSc would keep the failure for matrices of this pattern, or solve
+    // without factors
+    _krylov.reset();
+    return false;
+  }
+
+  contactx::condense::Iterations solve(std::span<const double> b,
+                                       std::span<double> x, double target,
+                                       int most) override
+  {
+    if (not _krylov)
+      throw std::logic_error("there are no factors to solve with");
+    petsc::set_operators(_krylov->ksp(), _A.get(), _A.get());
+    petsc::set_tolerances(_krylov->ksp(), target, most);
+    std::ranges::fill(x, 0);
+    return _krylov->solve(b, x);
+  }
+
+  void reset() override
+  {
+    _krylov.reset();
+    _A.put();
+    _jacobian.reset();
+  }
+
+private:
+  Assembler* _assembler;
+  std::string _prefix;
+  petsc::OwnMat _A;
+  std::optional<Jacobian> _jacobian;
+  std::optional<petsc::Krylov> _krylov;
+  PetscObjectState _pattern = -1; // of the factors
+};
+
+/// @brief What the condensed solver needs of linear algebra, by PETSc; see
+/// contactx::condense::Algebra.
+class Algebra final : public petsc::Matrices
+{
+public:
+  using Apply = contactx::condense::Apply;
+  using MatrixPtr = contactx::condense::MatrixPtr;
+
+  /// @brief Take the system.
+  /// @param[in] assembler The system; it must outlive this.
+  /// @param[in] prefix Prefix of PETSc's options: of multigrid's Krylov solver;
+  /// with a name of factors, `bodies_model_` or `direct_` behind it of others.
+  Algebra(Assembler& assembler, std::string prefix)
+      : Matrices(assembler.bulk()->u()->function_space()->mesh()->comm()),
+        _assembler(&assembler), _bulk(assembler.bulk()),
+        _prefix(std::move(prefix))
+  {
+  }
+
+  void update_bulk() override { _bulk->assemble(); }
+  int assemblies() const override { return _bulk->assemblies(); }
+
+  /// @copydoc contactx::condense::Algebra::is_symmetric
+  ///
+  /// It is where x.Ky = y.Kx for two random vectors, which an asymmetric K
+  /// fails but for chance.
+  bool is_symmetric() override
+  {
+    const ::Mat K = _bulk->matrix();
+    if (_symmetry_of == assemblies())
+      return _is_symmetric;
+    petsc::OwnVec x, y, work;
+    for (auto* v : {&x, &y, &work})
+      petsc::check(MatCreateVecs(K, v->put(), nullptr), "MatCreateVecs");
+    std::mt19937_64 random(dolfinx::MPI::rank(comm()));
+    std::normal_distribution<double> normal;
+    for (::Vec v : {x.get(), y.get()})
+    {
+      const petsc::Values values(v);
+      std::ranges::generate(values.span(), [&] { return normal(random); });
+    }
+    PetscReal size_of_x = 0, size = 0;
+    PetscScalar one = 0, other = 0;
+    petsc::check(MatMult(K, y.get(), work.get()), "MatMult");
+    petsc::check(VecDot(x.get(), work.get(), &one), "VecDot");
+    petsc::check(VecNorm(work.get(), NORM_2, &size), "VecNorm");
+    petsc::check(VecNorm(x.get(), NORM_2, &size_of_x), "VecNorm");
+    petsc::check(MatMult(K, x.get(), work.get()), "MatMult");
+    petsc::check(VecDot(y.get(), work.get(), &other), "VecDot");
+    _symmetry_of = assemblies();
+    return _is_symmetric = std::abs(one - other) <= 1e-12 * size * size_of_x;
+  }
+
+  MatrixPtr bulk() override
+  {
+    const ::Mat K = _bulk->matrix();
+    if (not _K or petsc::of(*_K) != K)
+      _K = petsc::share(K);
+    return _K;
+  }
+
+  MatrixPtr bulk_copy() override { return petsc::duplicate(_bulk->matrix()); }
+
+  MatrixPtr bulk_rows(std::span<const std::int32_t> dofs) override
+  {
+    const ::Mat K = _bulk->matrix();
+    if (_rows and _rows_of == assemblies())
+      return _rows;
+    PetscInt first = 0, last = 0;
+    petsc::check(MatGetOwnershipRange(K, &first, &last),
+                 "MatGetOwnershipRange");
+    std::vector<PetscInt> numbers;
+    for (const std::int32_t dof : dofs)
+      numbers.push_back(first + dof);
+    petsc::OwnIS some, every;
+    make(some, numbers);
+    petsc::check(ISCreateStride(comm(), last - first, first, 1, every.put()),
+                 "ISCreateStride");
+    _rows = std::make_shared<petsc::Matrix>();
+    petsc::check(MatCreateSubMatrix(K, some.get(), every.get(),
+                                    MAT_INITIAL_MATRIX, _rows->A.put()),
+                 "MatCreateSubMatrix");
+    _rows_of = assemblies();
+    return _rows;
+  }
+
+  std::span<const std::int8_t> prescribed() override
+  {
+    return _bulk->markers();
+  }
+
+  std::unique_ptr<contactx::condense::Factors>
+  factorise(MatrixPtr A,
+            const contactx::condense::FactorOptions& options) override
+  {
+    return std::make_unique<petsc::Factors>(
+        *A, options, _prefix + std::string(options.name) + "_");
+  }
+
+  std::unique_ptr<contactx::condense::Hierarchy>
+  hierarchy(MatrixPtr A,
+            const std::vector<std::vector<double>>& near_null_space,
+            int block_size, Apply multiply) override
+  {
+    petsc::set_near_null_space(petsc::of(*A), near_null_space, block_size);
+    return std::make_unique<petsc::Hierarchy>(petsc::of(*A),
+                                              std::move(multiply), _prefix);
+  }
+
+  std::optional<contactx::condense::Aggregates>
+  aggregate(MatrixPtr A,
+            const std::vector<std::vector<double>>& near_null_space,
+            int block_size) override
+  {
+    petsc::set_near_null_space(petsc::of(*A), near_null_space, block_size);
+    return petsc::aggregate(petsc::of(*A), _prefix + "bodies_model_");
+  }
+
+  std::unique_ptr<contactx::condense::FlexibleGMRES>
+  flexible_gmres(std::size_t size, Apply multiply, Apply precondition,
+                 int restart) override
+  {
+    return std::make_unique<petsc::FlexibleGMRES>(
+        comm(), size, std::move(multiply), std::move(precondition), restart);
+  }
+
+  std::unique_ptr<contactx::condense::DirectSolver> direct_solver() override
+  {
+    return std::make_unique<DirectSolver>(*_assembler, _prefix + "direct_");
+  }
+
+  std::string preconditioner() const override
+  {
+    std::array<char, 256> type{};
+    petsc::check(PetscOptionsGetString(nullptr, _prefix.c_str(), "-pc_type",
+                                       type.data(), type.size(), nullptr),
+                 "PetscOptionsGetString");
+    return type.data();
+  }
+
+private:
+  Assembler* _assembler;
+  std::shared_ptr<Bulk> _bulk;
+  std::string _prefix;
+  std::shared_ptr<petsc::Matrix> _K, _rows;
+  // Assemblies that these are of
+  int _rows_of = -1, _symmetry_of = -1;
+  bool _is_symmetric = false;
+};
+} // namespace contactx_dolfinx
