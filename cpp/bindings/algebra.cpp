@@ -180,6 +180,7 @@ public:
   }
   MatrixPtr bulk() override { return made(_adapter.attr("bulk")()); }
   MatrixPtr bulk_copy() override { return made(_adapter.attr("bulk_copy")()); }
+  MatrixPtr lent_bulk() override { return made(_adapter.attr("lent_bulk")()); }
   MatrixPtr bulk_rows(std::span<const std::int32_t> dofs) override
   {
     return made(_adapter.attr("bulk_rows")(look(dofs)));

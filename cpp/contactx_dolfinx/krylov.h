@@ -391,7 +391,9 @@ public:
       // PETSc's choice for all three; of several ranks it knows others
       const Defaults defaults(
           prefix, {{"mg_levels_ksp_max_it", "1"}, {"pc_use_amat", "true"}}),
-          products("", is_serial ? Options{{"matptap_via", "rap"}} : Options{});
+          products("", is_serial ? Options{{"matptap_via", "rap"},
+                                           {"mat_product_clear", "true"}}
+                                 : Options{});
       check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
       PCType type = nullptr;
       check(PCGetType(pc, &type), "PCGetType");

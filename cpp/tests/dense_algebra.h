@@ -22,8 +22,8 @@ public:
 
   explicit DenseAlgebra(Stepped& bodies) : _bodies(bodies) {}
 
-  /// What solves were asked for, and norms of right-hand sides
-  std::vector<double> targets, norms;
+  /// What solves were asked for
+  std::vector<double> targets;
   /// Factors by their names, and hierarchies
   std::map<std::string, int> factorised;
   int hierarchies = 0;
@@ -278,7 +278,6 @@ private:
                      double target, int) override
     {
       _algebra.targets.push_back(target);
-      _algebra.norms.push_back(math::column(b).norm());
       const Dense A = dense_of(_multiply, b.size());
       if (is_symmetric)
         expect_galerkin(A);

@@ -171,8 +171,6 @@ std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
   }
   _condensation = made;
   _algebra->update_bulk();
-  // Before the operator takes the bulk, of which a host may keep half then
-  _algebra->bulk_rows(made->elimination().slave_dofs());
   const auto own = springs();
   return std::make_shared<CondensedOperator>(
       _numbering, std::move(made), std::vector<double>(own.begin(), own.end()));

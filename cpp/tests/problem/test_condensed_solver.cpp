@@ -116,23 +116,6 @@ TEST(CondensedSolver, SolvesAreAsRoughAsTheNextResidualAllows)
   EXPECT_NEAR(targets[1] / targets[0], 1e-3, 1e-9);
 }
 
-TEST(CondensedSolver, NoSolveIsFinerThanAnIterateNeeds)
-{
-  // However soft the softest body is: a part of what loads the stiff one would
-  // be less than rounding leaves
-  Pressed pressed(0);
-  SpringBulk& bulk = *pressed.bodies.bulk;
-  for (const std::int32_t node : pressed.bodies.scene.slaves->owned())
-    for (int k = 0; k < 2; ++k)
-      bulk.ground[2 * node + k] = 3e10;
-  Problem& problem = pressed.bodies.problem();
-  problem.solve(*pressed.solver, {.rtol = 1e-6, .max_it = 40});
-  const std::vector<double>& targets = pressed.algebra->targets;
-  const std::vector<double>& norms = pressed.algebra->norms;
-  ASSERT_FALSE(targets.empty());
-  EXPECT_NEAR(targets.front() / norms.front(), 1e-11, 1e-14);
-}
-
 TEST(CondensedSolver, MultipliesByTheJacobian)
 {
   Pressed pressed(0.3);

@@ -85,14 +85,18 @@ class Algebra:
         return self._bulk.matrix()
 
     def bulk_copy(self) -> PETSc.Mat:
-        """A copy of it."""
-        return self._bulk.copy()
+        """A copy of it; of one that stays no more than half is kept from then on."""
+        A = self._bulk.copy()
+        self._bulk.keep_half()
+        return A
+
+    def lent_bulk(self) -> PETSc.Mat:
+        """The Jacobian for ``hierarchy``."""
+        return self._bulk.lend()
 
     def bulk_rows(self, dofs: Index) -> PETSc.Mat:
-        """Some of its rows; of one that stays no more than half is kept from then on."""
-        rows = self._bulk.rows(dofs)
-        self._bulk.keep_half()
-        return rows
+        """Some of its rows."""
+        return self._bulk.rows(dofs)
 
     def matrix(
         self, num_rows: int, num_columns: int, rows: Index, columns: Index, values: Array
@@ -236,9 +240,16 @@ class Algebra:
     def hierarchy(
         self, A: PETSc.Mat, near_null_space: Sequence[Array], block_size: int, multiply: Apply
     ) -> Hierarchy:
-        """Make a multigrid hierarchy."""
+        """Make a multigrid hierarchy; of a bulk that is lent half is kept from then on."""
         self._set_near_null_space(A, near_null_space, block_size)
-        return Hierarchy(A, multiply, self._prefix)
+        hierarchy = Hierarchy(A, multiply, self._prefix)
+        A.setNearNullSpace(PETSc.NullSpace())
+        # PETSc keeps the matrix, but nothing in it is used again
+        if A.handle == self._bulk.matrix().handle:
+            self._bulk.keep_half()
+        else:
+            A.setPreallocationNNZ(0)
+        return hierarchy
 
     def _set_near_null_space(self, A: PETSc.Mat, vectors: Sequence[Array], block_size: int) -> None:
         A.setBlockSize(block_size)
@@ -342,7 +353,7 @@ class Hierarchy:
         """Make the hierarchy; all ranks must take part.
 
         Args:
-            P: Matrix that it is made of; its entries are dropped.
+            P: Matrix that it is made of.
             multiply: The matrix that is solved with.
             prefix: Prefix of the PETSc options.
 
@@ -397,9 +408,6 @@ class Hierarchy:
             smoother.setType("richardson")
             smoother.getPC().setType("sor")
         self._finest.setOperators(self._A, self._D)
-        # PETSc keeps the matrix, but nothing in it is used again
-        P.setPreallocationNNZ(0)
-        P.setNearNullSpace(PETSc.NullSpace())
         self.prolongations = [pc.getMGInterpolation(k) for k in range(levels - 1, 0, -1)]
         self.matrices = [smoother.getOperators()[0] for smoother in coarser]
         self._b, self._x = self._A.createVecs()

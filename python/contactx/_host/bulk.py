@@ -199,6 +199,12 @@ class Bulk:
         self._assemble()
         return self._A
 
+    def lend(self) -> PETSc.Mat:
+        """The Jacobian in rows, of which ``keep_half`` leaves half; a copy where it would not."""
+        A = self.matrix()
+        may_halve = self.is_linear and self._is_whole and self.is_symmetric
+        return A if may_halve else self.copy()
+
     def copy(self) -> PETSc.Mat:
         """Copy of the Jacobian in rows, with unit rows and columns at Dirichlet conditions."""
         A = self.matrix()
@@ -212,12 +218,11 @@ class Bulk:
     def keep_half(self) -> None:
         """Keep only half of a Jacobian that stays and is symmetric: half the memory to pass."""
         if self.is_linear and self._is_whole and self.is_symmetric:
-            whole = self._A
-            whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-            self._A = whole.convert("sbaij", PETSc.Mat())
+            self._A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+            # In place: others may have the matrix, too
+            self._A.convert("sbaij")
             # Assembled anew it is whole again
             self.blocks.matrices = []
-            whole.destroy()
 
     @property
     def is_symmetric(self) -> bool:
@@ -262,6 +267,8 @@ class Bulk:
         """
         A = self.matrix()
         if self._rows is None:
+            if not self._is_whole:
+                A = self.copy()
             first, last = A.getOwnershipRange()
             some = PETSc.IS().createGeneral((first + dofs).astype(PETSc.IntType), comm=self.comm)
             every = PETSc.IS().createStride(last - first, first, comm=self.comm)

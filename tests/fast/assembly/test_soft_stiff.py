@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactx._host import compat
-from contactx._host.algebra import Algebra
+from contactx._host.algebra import Algebra, Hierarchy
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
@@ -110,6 +110,26 @@ def test_a_coarse_model_has_the_same_answer(cell, law, sliding, with_model):
     for a, b in zip(direct[:2], found[:2], strict=True):
         assert np.abs(a - b).max() <= 1e-8 * np.abs(a).max()
     assert not any(report.uncondensed for report in found[2])
+
+
+def test_no_solve_is_finer_than_an_iterate_needs(monkeypatch):
+    """However soft the softest body is, of which the residual of the stiff one is a small part."""
+    targets = []
+    solve = Hierarchy.solve
+
+    def note(self, b, x, is_symmetric, target, most):
+        targets.append(target / np.linalg.norm(b))
+        return solve(self, b, x, is_symmetric, target, most)
+
+    monkeypatch.setattr(Hierarchy, "solve", note)
+    for stiffness in (1e-6, 1e-9):
+        scene = Blocks(CellType.hexahedron, n_upper=3, n_lower=4, stiffness=stiffness)
+        options = {"pc_type": "condensed", "snes_rtol": 1e-6}
+        targets.clear()
+        scene.problem(scene.contact("small"), petsc_options=options).solve()
+        assert targets[0] < 1e-7
+        assert min(targets) >= 0.999e-11
+    assert targets[0] == pytest.approx(1e-11)
 
 
 def test_factors_serve_where_nothing_changes():

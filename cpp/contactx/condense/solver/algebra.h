@@ -208,6 +208,10 @@ public:
   /// @brief A copy of it that all operations take.
   virtual MatrixPtr bulk_copy() = 0;
 
+  /// @brief The bulk's Jacobian for `hierarchy`, which takes its entries: a
+  /// copy, or itself where the host has no more need of all of them.
+  virtual MatrixPtr lent_bulk() { return bulk_copy(); }
+
   /// @brief Some of its rows, for nobody to change.
   /// @param[in] dofs Which owned ones, in order; the same ones every time.
   virtual MatrixPtr bulk_rows(std::span<const std::int32_t> dofs) = 0;

@@ -121,16 +121,17 @@ void MultigridSolver::build()
   reset();
   const Numbering& numbering = _K_c->numbering();
   const int g = numbering.gdim();
+  // Before the bulk is lent, of which a host may keep half then
+  MatrixPtr rows = _algebra.bulk_rows(_K_c->slave_dofs());
   // Rows of prescribed displacements have a one and no neighbours
   _hierarchy = _algebra.hierarchy(
-      _algebra.bulk_copy(),
+      _algebra.lent_bulk(),
       rigid_modes(numbering.ranks(),
                   numbering.halo().reference().first(numbering.num_owned()),
                   _algebra.prescribed(), g),
       g, [this](std::span<const double> v, std::span<double> y)
       { _K_c->multiply(v, y); });
-  _galerkin = std::make_unique<Galerkin>(numbering,
-                                         _algebra.bulk_rows(_K_c->slave_dofs()),
+  _galerkin = std::make_unique<Galerkin>(numbering, std::move(rows),
                                          _hierarchy->prolongations());
   _built_at = _algebra.assemblies();
   _rate = _lost = 0;

@@ -326,9 +326,9 @@ std::vector<double> SoftStiffSolver::stiffness_per_area()
         // Near supports no traction moves much, though short waves are no
         // stiffer there
         const double longest = 1 / std::max(u[i], min_moved_fraction * most);
-        stiffness[dofs[i]]
-            = std::pow(longest, 1 - _tuning.short_wave_exponent)
-              * std::pow(std::max(shortest, longest), _tuning.short_wave_exponent);
+        stiffness[dofs[i]] = std::pow(longest, 1 - _tuning.short_wave_exponent)
+                             * std::pow(std::max(shortest, longest),
+                                        _tuning.short_wave_exponent);
       }
   }
   return stiffness;
