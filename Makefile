@@ -281,4 +281,4 @@ format: $(TESTER)
 # Nothing is removed across a mount: below one are things of the machine
 clean:
 	@! grep " $(CURDIR)/build/" /proc/mounts || { echo "contactx: these are mounted below build: umount them first" >&2; exit 1; }
-	rm -rf --one-file-system build $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf --one-file-system build $(VENV) .mypy_cache .pytest_cache .ruff_cache

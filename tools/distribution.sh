@@ -123,7 +123,7 @@ say "packages"
 inside apt-get install -y -qq --no-install-recommends python3-dolfinx-real libdolfinx-real-dev g++ \
 	libeigen3-dev cmake ninja-build python3-venv python3-pip python3-dev pybind11-dev python3-pybind11 \
 	python3-scikit-build-core python3-rich python3-pytest python3-pytest-xdist \
-	python3-hypothesis python3-scipy python3-gmsh python3-jinja2 python3-yaml python3-pyvista \
+	python3-scipy python3-gmsh python3-jinja2 python3-yaml python3-pyvista \
 	python3-matplotlib python3-dolfinx-mpc > "$folder/apt.log" 2>&1 || fail "apt-get failed, see $folder/apt.log"
 
 say "contactx, in a virtual environment with system packages"

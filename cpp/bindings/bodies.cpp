@@ -6,7 +6,6 @@
 #include "master.h"
 #include <contactx/mesh/bodies.h>
 #include <contactx/solve/active_set.h>
-#include <contactx/solve/rigid_modes.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
@@ -78,45 +77,6 @@ void contactx_bindings::bodies(py::module_& m)
                          {2, bodies.size(), gdim});
           },
           py::arg("bodies"), py::arg("x"), py::arg("gdim"));
-  py::class_<RigidModes>(m, "RigidModes", "Rigid modes of bodies")
-      .def(py::init(
-               [](std::shared_ptr<Bodies> bodies, py::object bulk,
-                  const Array<double>& x)
-               {
-                 PythonBulk seen(std::move(bulk));
-                 return std::make_unique<RigidModes>(std::move(bodies), seen,
-                                                     view(x));
-               }),
-           py::arg("bodies"), py::arg("bulk"), py::arg("x"))
-      .def(
-          "update",
-          [](RigidModes& self, py::object bulk, const Array<double>& x)
-          {
-            PythonBulk seen(std::move(bulk));
-            self.update(seen, view(x));
-          },
-          py::arg("bulk"), py::arg("x"))
-      .def_property_readonly("count", &RigidModes::count)
-      .def_property_readonly("size", &RigidModes::size)
-      .def_property_readonly("any_free", &RigidModes::any_free)
-      .def_property_readonly("free",
-                             [](const RigidModes& self) { return self.free(); })
-      .def(
-          "at",
-          [](const RigidModes& self, const Array<std::int32_t>& nodes,
-             const Array<double>& x)
-          {
-            const int gdim = self.gdim();
-            const auto size = static_cast<std::int32_t>(self.body().size());
-            check::numbers(view(nodes), size, "nodes", "nodes");
-            check::positions(x.size(), size, gdim);
-            py::array_t<double> modes({nodes.size(), py::ssize_t(gdim),
-                                       py::ssize_t(self.modes_per_body())});
-            for (py::ssize_t i = 0; i < nodes.size(); ++i)
-              self.at(nodes.data()[i], view(x), modes.mutable_data(i, 0, 0));
-            return modes;
-          },
-          py::arg("nodes"), py::arg("x"));
   py::class_<Forces>(m, "Forces",
                      "Forces at an iterate, asked for where needed")
       .def(py::init(

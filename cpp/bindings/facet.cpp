@@ -4,7 +4,6 @@
 #include "bindings.h"
 #include "check.h"
 #include <algorithm>
-#include <contactx/geometry/nodal.h>
 #include <contactx/geometry/shape.h>
 
 namespace py = pybind11;
@@ -12,18 +11,6 @@ using namespace contactx_bindings;
 
 void contactx_bindings::facet(py::module_& m)
 {
-  m.def(
-      "nodal_normals",
-      [](const Array<std::int32_t>& offsets, const Array<std::int32_t>& nodes,
-         const Array<double>& x, int gdim)
-      {
-        check::surface(view(offsets), view(nodes), x.size(), gdim);
-        const auto n = contactx::geometry::nodal_normals(
-            {view(offsets), view(nodes)}, view(x), gdim);
-        return array(n, {static_cast<py::ssize_t>(n.size()) / gdim, gdim});
-      },
-      py::arg("offsets"), py::arg("nodes"), py::arg("x"), py::arg("gdim"),
-      "Outward unit normal of each node of a surface");
   m.def(
       "shape_functions",
       [](int num_nodes, const Array<double>& xi)

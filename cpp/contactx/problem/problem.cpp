@@ -66,8 +66,8 @@ Problem::Problem(std::shared_ptr<solve::System> system,
                  std::shared_ptr<const mesh::Bodies> bodies,
                  std::vector<Part> parts, bool refuses)
     : _system(std::move(system)), _halo(_system->halo()),
-      _bodies(std::move(bodies)), _parts(std::move(parts)),
-      _refuses(refuses), _loop(_system, _bodies),
+      _bodies(std::move(bodies)), _parts(std::move(parts)), _refuses(refuses),
+      _loop(_system, _bodies),
       _size(std::ranges::max(
           mesh::extent(_halo->ranks(),
                        _halo->reference().first(_system->num_displacements()),

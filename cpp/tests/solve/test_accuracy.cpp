@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include <cmath>
-#include <contactx/solve/accuracy.h>
 #include <contactx/condense/residual_weights.h>
+#include <contactx/solve/accuracy.h>
 #include <gtest/gtest.h>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
 
 using namespace contactx;
-using solve::Accuracy;
 using condense::residual_weight;
+using solve::Accuracy;
 
 namespace
 {
