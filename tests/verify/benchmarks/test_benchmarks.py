@@ -23,6 +23,7 @@ import bench_skips
 import bench_solvers
 import bench_spheres
 import bench_steps
+import bench_units
 import numpy as np
 import pytest
 import runner
@@ -67,6 +68,14 @@ def test_hertz():
     written = tables.read(runner.OUTPUT / "hertz.csv")
     assert [row["force"] for row in written] == [row["force"] for row in rows]
     assert image.imread(runner.OUTPUT / "hertz.png").shape[0] > 300
+
+
+def test_units(monkeypatch):
+    monkeypatch.setattr(bench_units, "RUNS", 1)
+    rows = bench_units.main(["0.2"])
+    assert [row["way"] for row in rows] == ["linear", *bench_units.WAYS]
+    assert rows[0]["units"] == 1
+    assert all(row["peak"] > row["memory"] > 0 for row in rows)
 
 
 def test_growth():
