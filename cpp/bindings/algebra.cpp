@@ -14,24 +14,6 @@ using contactx::problem::Problem;
 
 namespace
 {
-/// Array that looks at values, which Python may not write to.
-template <class T>
-py::array_t<T> look(std::span<const T> values)
-{
-  // With a base nothing is copied
-  py::array_t<T> array(static_cast<py::ssize_t>(values.size()), values.data(),
-                       py::none());
-  array.attr("flags").attr("writeable") = false;
-  return array;
-}
-
-/// Array that Python writes to.
-py::array_t<double> lend(std::span<double> values)
-{
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()),
-                             values.data(), py::none());
-}
-
 /// Function for Python that writes into its second argument.
 py::cpp_function to_python(Apply apply)
 {
@@ -142,9 +124,10 @@ class PythonDirect final : public DirectSolver
 {
 public:
   explicit PythonDirect(py::object adapter) : _adapter(std::move(adapter)) {}
-  void assemble(std::span<const double> springs) override
+  void assemble(const Springs& springs) override
   {
-    _adapter.attr("assemble")(look(springs));
+    _adapter.attr("assemble")(springs ? py::object(array(*springs))
+                                      : py::none());
   }
   bool factorise() override
   {

@@ -49,6 +49,25 @@ py::array_t<T> array(const std::vector<T>& v,
   return py::array_t<T>(shape, v.data());
 }
 
+/// Array that looks at values, which Python may not write to
+template <class T>
+py::array_t<T> look(std::span<const T> values)
+{
+  // With a base nothing is copied
+  py::array_t<T> array(static_cast<py::ssize_t>(values.size()), values.data(),
+                       py::none());
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+/// Array that looks at values, which Python writes to
+template <class T>
+py::array_t<T> lend(std::span<T> values)
+{
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data(),
+                        py::none());
+}
+
 void facet(py::module_& m);
 void search(py::module_& m);
 void node_state(py::module_& m);

@@ -21,18 +21,14 @@ public:
   {
   }
 
-  void assemble(std::span<const double> springs) override
+  void assemble(const contactx::condense::Springs& springs) override
   {
     if (_A.get() == nullptr)
     {
       *_A.put() = _assembler->create_matrix();
       _jacobian.emplace(_assembler->system(), _assembler->bulk());
     }
-    std::optional<std::vector<double>> given;
-    // Empty is also what a rank without displacements has
-    if (petsc::anywhere(petsc::comm_of(_A.get()), not springs.empty()))
-      given.emplace(springs.begin(), springs.end());
-    _jacobian->assemble(_A.get(), given);
+    _jacobian->assemble(_A.get(), springs);
   }
 
   bool factorise() override

@@ -376,7 +376,10 @@ private:
   {
   public:
     explicit Direct(DenseAlgebra& algebra) : _algebra(algebra) {}
-    void assemble(Span) override { _J = _algebra._bodies.matrix(); }
+    void assemble(const condense::Springs&) override
+    {
+      _J = _algebra._bodies.matrix();
+    }
     bool factorise() override
     {
       ++_algebra.factorised["system"];

@@ -197,8 +197,7 @@ void operations(cx::Algebra& algebra)
   algebra.set_diagonal(*D, scales);
   check("set_diagonal", algebra.diagonal(*D) == scales);
   D = algebra.copy(*B);
-  algebra.scale(*D, scales, {});
-  algebra.scale(*D, {}, Vector(n.mine, 3));
+  algebra.scale(*D, scales, Vector(n.mine, 3));
   is("scale", D,
      Dense(b.m, b.n,
            [&](Int i, Int j) { return 3.0 * double(1 + i) * b(i, j); }));
@@ -237,7 +236,7 @@ void operations(cx::Algebra& algebra)
     }
   }
   D = algebra.copy(*A);
-  algebra.scale(*D, Vector(5, 0), {});
+  algebra.scale(*D, Vector(5, 0), Vector(5, 1));
   const auto none = algebra.factorise(D, {.name = "none", .is_rough = false});
   none->solve(scales, found);
   check("singular", not dynamic_cast<const cx::petsc::Factors&>(*none).is_good()
@@ -383,7 +382,7 @@ void solvers(cx::Assembler& assembler, cx::Algebra& algebra)
     VecZeroEntries(r.get());
     std::ranges::fill(cx::petsc::Values(r.get()).span().first(n), more);
     MatDiagonalSet(J.get(), r.get(), ADD_VALUES);
-    direct->assemble(more > 0 ? Vector(n, more) : Vector());
+    direct->assemble(more > 0 ? std::optional(Vector(n, more)) : std::nullopt);
     check("factorise", more > 0 or direct->factorise());
     done = direct->solve(load, found, 1e-9, 60);
     std::ranges::copy(found, cx::petsc::Values(u.get()).span().begin());

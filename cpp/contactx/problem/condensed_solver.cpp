@@ -126,11 +126,9 @@ double CondensedSolver::target() const
   return (_accuracy.is_last() ? 1 : tuning.roughness) * _accuracy.target();
 }
 
-std::span<const double> CondensedSolver::springs() const
+const condense::Springs& CondensedSolver::springs() const
 {
-  const auto& springs = _problem.loop().free_bodies().springs();
-  return springs ? std::span<const double>(*springs)
-                 : std::span<const double>();
+  return _problem.loop().free_bodies().springs();
 }
 
 /// Eliminates the multipliers.
@@ -171,9 +169,8 @@ std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
   }
   _condensation = made;
   _algebra->update_bulk();
-  const auto own = springs();
-  return std::make_shared<CondensedOperator>(
-      _numbering, std::move(made), std::vector<double>(own.begin(), own.end()));
+  return std::make_shared<CondensedOperator>(_numbering, std::move(made),
+                                             springs());
 }
 
 bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
@@ -289,7 +286,7 @@ void CondensedSolver::multiply(std::span<const double> x, std::span<double> y)
   _algebra->multiply(*_algebra->bulk(), x.first(n), w);
   for (std::size_t i = 0; i < n; ++i)
     y[i] += w[i];
-  const auto own = springs();
-  for (std::size_t i = 0; i < own.size(); ++i)
-    y[i] += own[i] * x[i];
+  if (const condense::Springs& own = springs())
+    for (std::size_t i = 0; i < n; ++i)
+      y[i] += (*own)[i] * x[i];
 }

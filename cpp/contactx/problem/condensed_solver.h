@@ -73,7 +73,7 @@ private:
 
   void follow();
   double target() const;
-  std::span<const double> springs() const;
+  const condense::Springs& springs() const;
   std::shared_ptr<condense::CondensedOperator> condensed(Spans b);
   bool solve_condensed(Spans b, std::span<double> x);
   bool iterate(std::shared_ptr<condense::CondensedOperator> K_c, Spans rhs,

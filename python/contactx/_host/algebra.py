@@ -503,9 +503,9 @@ class _DirectSolver:
         """Drop matrix and factors."""
         self._ksp = self._A = None
 
-    def assemble(self, springs: Array) -> None:
+    def assemble(self, springs: Array | None) -> None:
         """Assemble the Jacobian."""
-        A = self._system.jacobian(self._A, springs if len(springs) > 0 else None)
+        A = self._system.jacobian(self._A, springs)
         if A is not self._A:
             self._A = A
             self._pattern += 1

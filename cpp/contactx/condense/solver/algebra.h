@@ -135,6 +135,11 @@ public:
                            const Test& test, int most) = 0;
 };
 
+/// @brief Stiffness that is added to the diagonal of a rank's displacements
+/// (shape=(num_displacements)), on all ranks or on none. A rank without
+/// displacements has an empty one then.
+using Springs = std::optional<std::vector<double>>;
+
 /// @brief GMRES with the factors of an older matrix of all unknowns.
 class DirectSolver
 {
@@ -142,9 +147,8 @@ public:
   virtual ~DirectSolver() = default;
 
   /// @brief Assemble the Jacobian of now, which later solves are with.
-  /// @param[in] springs Stiffness that is added to the diagonal of the
-  /// displacements (shape=(num_displacements)); empty for none.
-  virtual void assemble(std::span<const double> springs) = 0;
+  /// @param[in] springs What holds free bodies.
+  virtual void assemble(const Springs& springs) = 0;
 
   /// @brief Factorise it.
   /// @return Whether it has factors.

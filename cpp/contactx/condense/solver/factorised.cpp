@@ -15,7 +15,7 @@ constexpr int rounding_iterations = 4;
 } // namespace
 
 void FactorisedSolver::solve(std::span<const double> b, std::span<double> x,
-                             double target, std::span<const double> springs,
+                             double target, const Springs& springs,
                              bool is_last)
 {
   {

@@ -30,13 +30,12 @@ public:
   /// @param[in] b Right-hand side.
   /// @param[out] x Solution; not finite where the Jacobian is singular.
   /// @param[in] target What the norm of the residual must fall below.
-  /// @param[in] springs What is added to the diagonal of the displacements
-  /// (shape=(num_displacements)); empty for none.
+  /// @param[in] springs What holds free bodies.
   /// @param[in] is_last Whether it is to be the last solve of a step. Where
   /// nodes are on the edge of stick and slip the next step starts from them as
   /// they are, so what is left of an older Jacobian must not move them.
   void solve(std::span<const double> b, std::span<double> x, double target,
-             std::span<const double> springs, bool is_last);
+             const Springs& springs, bool is_last);
 
   /// @brief Drop the factors: an error of the host may have left them half
   /// done.

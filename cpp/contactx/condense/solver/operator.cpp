@@ -14,8 +14,7 @@ using namespace contactx::condense;
 
 CondensedOperator::CondensedOperator(
     std::shared_ptr<const Numbering> numbering,
-    std::shared_ptr<const Condensation> condensation,
-    std::vector<double> springs)
+    std::shared_ptr<const Condensation> condensation, Springs springs)
     : _numbering(std::move(numbering)), _algebra(_numbering->algebra()),
       _condensation(std::move(condensation)), _springs(std::move(springs)),
       _K(_algebra.bulk())
@@ -49,9 +48,9 @@ CondensedOperator::CondensedOperator(
     std::ranges::sort(recovered);
     _of_left = Chains::of(*_numbering, _chains.left, recovered);
   }
-  const std::vector<double> diagonal = _algebra.diagonal(*_K);
+  _bulk_diagonal = _algebra.diagonal(*_K);
   for (const std::int32_t dof : eliminated())
-    _diagonal.push_back(std::abs(diagonal[dof]));
+    _diagonal.push_back(std::abs(_bulk_diagonal[dof]));
   _some.resize(eliminated().size());
   const std::size_t n = _numbering->num_owned();
   for (auto* work : {&_z, &_w, &_work})
@@ -78,8 +77,9 @@ void CondensedOperator::multiply_bulk(std::span<const double> z,
     for (std::size_t i = 0; i < w.size(); ++i)
       w[i] += _work[i];
   }
-  for (std::size_t i = 0; i < _springs.size(); ++i)
-    w[i] += _springs[i] * z[i];
+  if (_springs)
+    for (std::size_t i = 0; i < w.size(); ++i)
+      w[i] += (*_springs)[i] * z[i];
 }
 
 void CondensedOperator::expand(std::span<const double> v, std::span<double> z)
@@ -160,7 +160,7 @@ std::span<const double> CondensedOperator::free_diagonal()
 {
   if (_free_diagonal.empty())
   {
-    _free_diagonal = _algebra.diagonal(*_K);
+    _free_diagonal = _bulk_diagonal;
     const auto prescribed = _algebra.prescribed();
     for (std::size_t i = 0; i < _free_diagonal.size(); ++i)
       if (prescribed[i])
@@ -179,9 +179,12 @@ SoftAndStiff CondensedOperator::parts(const mesh::Bodies& bodies)
     is_stiff[i] = of_body[bodies.number()[i / g]];
   // Where multipliers may be, whose rows are constraints of their masters
   if (std::ranges::find(of_body, 1) != of_body.end())
+  {
+    const auto prescribed = _algebra.prescribed();
     for (const std::int32_t dof : slave_dofs())
-      if (_algebra.prescribed()[dof])
+      if (prescribed[dof])
         is_stiff[dof] = 1;
+  }
   SoftAndStiff parts;
   for (std::size_t i = 0; i < is_stiff.size(); ++i)
     (is_stiff[i] ? parts.stiff : parts.soft)
@@ -245,9 +248,9 @@ Transforms CondensedOperator::transforms() const
     add_terms(_algebra, *made.left, *_numbering->matrix(_chains.left), true);
   made.law = _numbering->matrix(elimination.law());
   made.stiffness = _numbering->matrix(_condensation->stiffness());
-  if (not _springs.empty())
+  if (_springs)
     _algebra.add(*made.stiffness, 1,
-                 *diagonal_matrix(_algebra, _numbering->ranks(), _springs));
+                 *diagonal_matrix(_algebra, _numbering->ranks(), *_springs));
   return made;
 }
 
@@ -269,18 +272,19 @@ ContactUpdate CondensedOperator::contact_update()
   update.block
       = _algebra.submatrix(*rows, chosen, _numbering->numbers(eliminated()));
   // The same on all ranks
-  if (not _springs.empty() or _condensation->is_soft())
+  if (_springs or _condensation->is_soft())
     update.springs = _numbering->matrix(elastic(
         _condensation->elimination(), _numbering->halo(),
         _condensation->is_soft() ? _condensation->springs() : Triplets(),
-        _springs));
+        _springs ? std::span<const double>(*_springs)
+                 : std::span<const double>()));
   update.bound = bound();
   return update;
 }
 
 std::vector<double> CondensedOperator::bound()
 {
-  std::vector<double> D = _algebra.diagonal(*_K);
+  std::vector<double> D = _bulk_diagonal;
   for (double& d : D)
     d = std::abs(d);
   D = condense::bound(_condensation->elimination(), _numbering->halo(), D);
@@ -290,8 +294,9 @@ std::vector<double> CondensedOperator::bound()
     for (std::size_t i = 0; i < D.size(); ++i)
       D[i] += sums[i];
   }
-  for (std::size_t i = 0; i < _springs.size(); ++i)
-    D[i] += _springs[i];
+  if (_springs)
+    for (std::size_t i = 0; i < D.size(); ++i)
+      D[i] += (*_springs)[i];
   for (std::size_t i = 0; i < _diagonal.size(); ++i)
     D[eliminated()[i]] = _diagonal[i];
   return D;

@@ -60,12 +60,11 @@ public:
   /// @brief Make the operator of the bulk as it is now.
   /// @param[in] numbering Displacements of this rank.
   /// @param[in] condensation How the multipliers are eliminated.
-  /// @param[in] springs What is added to the diagonal (shape=(num_owned)), on
-  /// all ranks or on none; empty for none.
+  /// @param[in] springs What is added to the diagonal.
   /// @throws NotCondensable on all ranks where eliminations hold one another.
   CondensedOperator(std::shared_ptr<const Numbering> numbering,
                     std::shared_ptr<const Condensation> condensation,
-                    std::vector<double> springs);
+                    Springs springs);
 
   /// @brief Displacements of this rank.
   const Numbering& numbering() const { return *_numbering; }
@@ -174,7 +173,7 @@ private:
   std::shared_ptr<const Numbering> _numbering;
   Algebra& _algebra;
   std::shared_ptr<const Condensation> _condensation;
-  std::vector<double> _springs;
+  Springs _springs;
   MatrixPtr _K;              // the bulk's
   MatrixPtr _right;          // rows of the eliminated displacements alone
   MatrixPtr _S, _left, _law; // null where they have no entries on any rank
@@ -183,7 +182,8 @@ private:
   DependentConstraints _chains;
   std::unique_ptr<Chains> _of_right, _of_left; // _of_left null if transposed
   std::vector<double> _diagonal; // stands for eliminated displacements
-  std::vector<double> _free_diagonal;
+  // That of the bulk, and with zero where displacements are prescribed
+  std::vector<double> _bulk_diagonal, _free_diagonal;
   std::vector<double> _some, _z, _w, _work;
 };
 } // namespace contactx::condense

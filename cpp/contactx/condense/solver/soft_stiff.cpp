@@ -293,11 +293,12 @@ std::vector<double> SoftStiffSolver::stiffness_per_area()
   const std::vector<std::int32_t>& dofs = part.dofs();
   const std::vector<double> every = _K_c->areas(), diagonal = part.diagonal();
   std::vector<double> areas;
+  const auto prescribed = _algebra.prescribed();
   std::array closed{0.0, 0.0};
   for (std::size_t i = 0; i < dofs.size(); ++i)
   {
     const std::int32_t dof = dofs[i];
-    areas.push_back(_algebra.prescribed()[dof] ? 0 : every[dof]);
+    areas.push_back(prescribed[dof] ? 0 : every[dof]);
     if (areas.back() > 0)
       closed[0] += diagonal[i];
     closed[1] += areas.back();
