@@ -45,17 +45,16 @@ void contactx_bindings::condense(py::module_& m)
       .def(py::init(
                [](const ContactBlock::Contacts& contacts,
                   const std::optional<Array<std::int8_t>>& prescribed,
-                  bool keeps_zeros, const std::optional<Array<double>>& d)
+                  bool keeps_zeros)
                {
-                 return ContactBlock(
-                     contacts,
-                     prescribed ? view(*prescribed)
-                                : std::span<const std::int8_t>(),
-                     keeps_zeros, d ? view(*d) : std::span<const double>());
+                 return ContactBlock(contacts,
+                                     prescribed
+                                         ? view(*prescribed)
+                                         : std::span<const std::int8_t>(),
+                                     keeps_zeros);
                }),
            py::arg("contacts"), py::arg("prescribed") = py::none(),
-           py::kw_only(), py::arg("keeps_zeros") = false,
-           py::arg("d") = py::none())
+           py::kw_only(), py::arg("keeps_zeros") = false)
       .def(
           "multiply", [](const ContactBlock& self, const Array<double>& x)
           { return array(self.multiply(view(x))); }, py::arg("x"));

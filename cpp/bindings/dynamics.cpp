@@ -44,10 +44,7 @@ public:
   }
   void solve(std::span<double> values) override
   {
-    // With a base nothing is copied: the function writes to its argument
-    py::array_t<double> given(static_cast<py::ssize_t>(values.size()),
-                              values.data(), py::none());
-    _adapter.attr("solve")(given);
+    _adapter.attr("solve")(lend(values));
   }
   std::optional<double> strain_energy() override
   {

@@ -12,7 +12,6 @@
 namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::solve;
-using contactx::condense::ContactBlock;
 using contactx::mesh::Halo;
 using contactx::solve::ActiveSet;
 using contactx::solve::FreeBodies;
@@ -54,13 +53,7 @@ void contactx_bindings::newton(py::module_& m)
       .def(
           "residual", [](System& self, Array<double> b)
           { self.residual(mutable_view(b)); }, py::arg("b").noconvert())
-      .def("forces", [](System& self) { return array(self.forces()); })
-      .def(
-          "multiply",
-          [](const System& self, const ContactBlock& contact,
-             const Array<double>& x, Array<double> y)
-          { self.multiply(contact, view(x), mutable_view(y)); },
-          py::arg("contact"), py::arg("x"), py::arg("y").noconvert());
+      .def("forces", [](System& self) { return array(self.forces()); });
 
   py::class_<Iterate>(m, "Iterate", "An accepted iterate")
       .def_readonly("residual", &Iterate::residual)

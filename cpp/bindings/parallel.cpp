@@ -13,15 +13,6 @@ using namespace contactx::mesh;
 
 namespace
 {
-/// Array that looks at the values, which Python may write to.
-template <class T>
-py::array_t<T> shared(std::span<T> values)
-{
-  // With a base nothing is copied
-  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data(),
-                        py::none());
-}
-
 class PythonRanks final : public Ranks
 {
 public:
@@ -37,13 +28,13 @@ public:
   void reduce(std::span<double> values, Reduction how) override
   {
     if (_size > 1)
-      _adapter.attr("reduce")(shared(values), name_of(how));
+      _adapter.attr("reduce")(lend(values), name_of(how));
   }
 
   void reduce(std::span<std::int64_t> values, Reduction how) override
   {
     if (_size > 1)
-      _adapter.attr("reduce")(shared(values), name_of(how));
+      _adapter.attr("reduce")(lend(values), name_of(how));
   }
 
   std::vector<double> gather(std::span<const double> mine) override
@@ -111,17 +102,17 @@ public:
 
   void forward(std::span<double> values, int width) override
   {
-    _adapter.attr("forward")(shared(values), width);
+    _adapter.attr("forward")(lend(values), width);
   }
 
   void forward(std::span<std::int64_t> values, int width) override
   {
-    _adapter.attr("forward")(shared(values), width);
+    _adapter.attr("forward")(lend(values), width);
   }
 
   void reverse(std::span<double> values, int width) override
   {
-    _adapter.attr("reverse")(shared(values), width);
+    _adapter.attr("reverse")(lend(values), width);
   }
 
   void displacement(std::span<double> values) const override

@@ -241,52 +241,35 @@ public:
   void scale(condense::Matrix& A, std::span<const double> left,
              std::span<const double> right) override
   {
-    // Empty is also what a rank without rows has
-    const bool has_left = anywhere(_comm, not left.empty()),
-               has_right = anywhere(_comm, not right.empty());
     const auto& [of_columns, of_rows] = vectors(A);
     const Placed l(of_rows, left), r(of_columns, right);
-    check(MatDiagonalScale(of(A), has_left ? of_rows : nullptr,
-                           has_right ? of_columns : nullptr),
-          "MatDiagonalScale");
+    check(MatDiagonalScale(of(A), of_rows, of_columns), "MatDiagonalScale");
   }
 
   MatrixPtr product(const condense::Matrix& A,
                     const condense::Matrix& B) override
   {
-    auto made = std::make_shared<Matrix>();
-    check(MatMatMult(of(A), of(B), MAT_INITIAL_MATRIX, PETSC_DETERMINE,
-                     made->A.put()),
-          "MatMatMult");
-    return made;
+    return made("MatMatMult", MatMatMult, of(A), of(B), MAT_INITIAL_MATRIX,
+                PETSC_DETERMINE);
   }
 
   MatrixPtr transposed_product(const condense::Matrix& A,
                                const condense::Matrix& B) override
   {
-    auto made = std::make_shared<Matrix>();
-    check(MatTransposeMatMult(of(A), of(B), MAT_INITIAL_MATRIX, PETSC_DETERMINE,
-                              made->A.put()),
-          "MatTransposeMatMult");
-    return made;
+    return made("MatTransposeMatMult", MatTransposeMatMult, of(A), of(B),
+                MAT_INITIAL_MATRIX, PETSC_DETERMINE);
   }
 
   MatrixPtr projection(const condense::Matrix& A,
                        const condense::Matrix& P) override
   {
-    auto made = std::make_shared<Matrix>();
-    check(MatPtAP(of(A), of(P), MAT_INITIAL_MATRIX, PETSC_DETERMINE,
-                  made->A.put()),
-          "MatPtAP");
-    return made;
+    return made("MatPtAP", MatPtAP, of(A), of(P), MAT_INITIAL_MATRIX,
+                PETSC_DETERMINE);
   }
 
   MatrixPtr transpose(const condense::Matrix& A) override
   {
-    auto made = std::make_shared<Matrix>();
-    check(MatTranspose(of(A), MAT_INITIAL_MATRIX, made->A.put()),
-          "MatTranspose");
-    return made;
+    return made("MatTranspose", MatTranspose, of(A), MAT_INITIAL_MATRIX);
   }
 
   MatrixPtr submatrix(const condense::Matrix& A,
@@ -296,11 +279,8 @@ public:
     OwnIS of_rows, of_columns;
     make(of_rows, integers(rows));
     make(of_columns, integers(columns));
-    auto made = std::make_shared<Matrix>();
-    check(MatCreateSubMatrix(of(A), of_rows.get(), of_columns.get(),
-                             MAT_INITIAL_MATRIX, made->A.put()),
-          "MatCreateSubMatrix");
-    return made;
+    return made("MatCreateSubMatrix", MatCreateSubMatrix, of(A), of_rows.get(),
+                of_columns.get(), MAT_INITIAL_MATRIX);
   }
 
   std::vector<double> diagonal(const condense::Matrix& A) override
@@ -375,10 +355,8 @@ public:
                         static_cast<PetscInt>(blocks.front().size()), nullptr,
                         matrices.data(), nest.put()),
           "MatCreateNest");
-    auto made = std::make_shared<Matrix>();
-    check(MatConvert(nest.get(), MATAIJ, MAT_INITIAL_MATRIX, made->A.put()),
-          "MatConvert");
-    return made;
+    return made("MatConvert", MatConvert, nest.get(), MATAIJ,
+                MAT_INITIAL_MATRIX);
   }
 
 protected:
@@ -395,6 +373,15 @@ private:
   static std::vector<PetscInt> integers(std::span<const std::int64_t> numbers)
   {
     return {numbers.begin(), numbers.end()};
+  }
+
+  /// The matrix that a function of PETSc makes, its last argument.
+  template <class Function, class... Given>
+  static MatrixPtr made(const char* name, Function function, Given... given)
+  {
+    auto matrix = std::make_shared<Matrix>();
+    check(function(given..., matrix->A.put()), name);
+    return matrix;
   }
 
   template <class Use>
