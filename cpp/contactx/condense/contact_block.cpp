@@ -27,6 +27,53 @@ std::vector<std::int8_t> needed(const law::NodeState& nodes,
   }
   return which;
 }
+
+/// Sums of blocks by the nodes of their rows and columns. Pairs come one by
+/// one, and all of them at once would be many times as large.
+class Sums
+{
+public:
+  /// Entries of a node's unknowns by those of another, row by row
+  using Block = std::array<double, 9>;
+
+  /// The blocks of a node's rows.
+  struct Row
+  {
+    std::vector<std::int32_t> columns; // nodes, in the order of the first pairs
+    std::vector<Block> blocks;
+  };
+
+  /// The block at a place, zero at first.
+  Block& at(std::int32_t row, std::int32_t column)
+  {
+    if (std::size_t(row) >= _places.size())
+      _places.resize(row + 1, -1);
+    if (_places[row] < 0)
+    {
+      _places[row] = static_cast<std::int32_t>(_rows.size());
+      _rows.emplace_back();
+    }
+    auto& [columns, blocks] = _rows[_places[row]];
+    const auto i = std::ranges::find(columns, column) - columns.begin();
+    if (std::size_t(i) == columns.size())
+    {
+      columns.push_back(column);
+      blocks.push_back({});
+    }
+    return blocks[i];
+  }
+
+  /// The blocks of a row, null where it has none.
+  const Row* row(std::size_t i) const
+  {
+    return i < _places.size() and _places[i] >= 0 ? &_rows[_places[i]]
+                                                  : nullptr;
+  }
+
+private:
+  std::vector<std::int32_t> _places; // of rows
+  std::vector<Row> _rows;
+};
 } // namespace
 
 Nodes contactx::condense::nodes_of(const contact::Contact& contact)
@@ -60,8 +107,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
   // multipliers: those of one are neighbours
   const std::int32_t num_nodes = halo.num_nodes(), gdim = halo.gdim();
   std::vector<std::int32_t> widths(num_nodes, gdim);
-  std::vector<Tile> tiles;
-  std::vector<double> values;
+  Sums sums;
   std::size_t first = 0;
   for (const auto& c : contacts)
   {
@@ -83,8 +129,7 @@ ContactBlock::ContactBlock(const Contacts& contacts,
               std::span<const std::int32_t> columns,
               std::span<const double> block)
           {
-            std::size_t at = values.size();
-            values.insert(values.end(), block.begin(), block.end());
+            const double* value = block.data();
             const std::size_t stride = width * columns.size();
             for (const std::int32_t row : rows)
             {
@@ -92,81 +137,50 @@ ContactBlock::ContactBlock(const Contacts& contacts,
               {
                 // Multipliers of other ranks' nodes come after those of this
                 // one
-                const bool is_here
-                    = (not row_is or std::size_t(row) < n)
-                      and (not column_is or std::size_t(columns[j]) < n);
-                if (is_here)
-                  tiles.push_back({row_is ? start + row : row,
-                                   column_is ? start + columns[j] : columns[j],
-                                   at + j * width, stride});
+                if ((row_is and std::size_t(row) >= n)
+                    or (column_is and std::size_t(columns[j]) >= n))
+                  continue;
+                Sums::Block& sum
+                    = sums.at(row_is ? start + row : row,
+                              column_is ? start + columns[j] : columns[j]);
+                for (std::size_t k = 0; k < height; ++k)
+                  for (std::size_t l = 0; l < width; ++l)
+                    sum[k * width + l] += value[k * stride + j * width + l];
               }
-              at += height * stride;
+              value += height * stride;
             }
           });
     }
     for (std::size_t s = 0; s < n; ++s)
     {
       const auto node = static_cast<std::int32_t>(start + s);
-      tiles.push_back({node, node, values.size() + s * size * size, size});
+      std::copy_n(nodes.by_multiplier.begin() + s * size * size, size * size,
+                  sums.at(node, node).begin());
     }
-    values.insert(values.end(), nodes.by_multiplier.begin(),
-                  nodes.by_multiplier.end());
     widths.insert(widths.end(), n, static_cast<std::int32_t>(size));
     first += n * size;
   }
-  add_up(tiles, values, widths, prescribed, keeps_zeros);
-}
 
-void ContactBlock::add_up(std::span<const Tile> tiles,
-                          std::span<const double> values,
-                          std::span<const std::int32_t> widths,
-                          std::span<const std::int8_t> prescribed,
-                          bool keeps_zeros)
-{
-  const std::size_t num_groups = widths.size();
-  std::vector<std::int32_t> firsts(num_groups + 1, 0), rows(tiles.size());
+  std::vector<std::int32_t> firsts(widths.size() + 1, 0), order;
   std::partial_sum(widths.begin(), widths.end(), firsts.begin() + 1);
-  std::ranges::transform(tiles, rows.begin(), &Tile::row);
-  const Groups by_row = grouped(rows, num_groups);
-
   const auto is_left_out = [prescribed](std::size_t i)
   { return i < prescribed.size() and prescribed[i] != 0; };
-  // Sums of the tiles of one place
-  using Sum = std::array<double, 9>;
-  std::vector<Sum> sums;
-  std::vector<std::int32_t> slots(num_groups, -1), found;
   _offsets.assign(1, 0);
   _offsets.reserve(firsts.back() + 1);
-  for (std::size_t i = 0; i < num_groups; ++i)
+  for (std::size_t i = 0; i < widths.size(); ++i)
   {
-    found.clear();
-    sums.clear();
-    const int height = widths[i];
-    for (const std::int32_t t : by_row[i])
+    const Sums::Row* row = sums.row(i);
+    order.resize(row ? row->columns.size() : 0);
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [row](int j) { return row->columns[j]; });
+    for (int k = 0; k < widths[i]; ++k)
     {
-      const Tile& tile = tiles[t];
-      std::int32_t& slot = slots[tile.column];
-      if (slot < 0)
+      for (const std::int32_t j : order)
       {
-        slot = static_cast<std::int32_t>(sums.size());
-        sums.push_back({});
-        found.push_back(tile.column);
-      }
-      const int width = widths[tile.column];
-      Sum& sum = sums[slot];
-      for (int k = 0; k < height; ++k)
-        for (int l = 0; l < width; ++l)
-          sum[k * width + l] += values[tile.at + k * tile.stride + l];
-    }
-    std::ranges::sort(found);
-    for (int k = 0; k < height; ++k)
-    {
-      for (const std::int32_t column : found)
-      {
-        const int width = widths[column];
-        for (int l = 0; l < width; ++l)
+        const std::int32_t column = row->columns[j];
+        for (int l = 0; l < widths[column]; ++l)
         {
-          const double value = sums[slots[column]][k * width + l];
+          const double value = row->blocks[j][k * widths[column] + l];
           if ((keeps_zeros or value != 0) and not is_left_out(firsts[i] + k)
               and not is_left_out(firsts[column] + l))
           {
@@ -177,8 +191,6 @@ void ContactBlock::add_up(std::span<const Tile> tiles,
       }
       _offsets.push_back(static_cast<std::int32_t>(_columns.size()));
     }
-    for (const std::int32_t column : found)
-      slots[column] = -1;
   }
 }
 

@@ -45,18 +45,6 @@ public:
   std::vector<double> multiply(std::span<const double> x) const;
 
 private:
-  // Entries of a pair for the unknowns of one node by those of another: their
-  // place among all values, and the distance of their rows
-  struct Tile
-  {
-    std::int32_t row, column;
-    std::size_t at, stride;
-  };
-
-  void add_up(std::span<const Tile> tiles, std::span<const double> values,
-              std::span<const std::int32_t> widths,
-              std::span<const std::int8_t> prescribed, bool keeps_zeros);
-
   std::vector<std::int32_t> _offsets, _columns;
   std::vector<double> _values;
 };
