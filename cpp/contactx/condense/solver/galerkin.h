@@ -12,10 +12,10 @@ namespace contactx::condense
 ///
 /// T differs from one in the rows of eliminated displacements e alone: with
 /// X = R_e Q, Y = K_e Q and M = X^T (Y + K_ee X / 2) it is M + M^T and the
-/// springs, products of few rows. Where these displacements need one another
-/// the first terms of the series of (I - C)^-1 R_e take the place of R_e. What
-/// the turning of normals adds to K is left to the finest level. All ranks must
-/// take part in all of it.
+/// springs, products of few rows, and projected further to coarser levels.
+/// Where these displacements need one another the first terms of the series of
+/// (I - C)^-1 R_e take the place of R_e. What the turning of normals adds to K
+/// is left to the finest level. All ranks must take part in all of it.
 class Galerkin
 {
 public:
@@ -28,9 +28,9 @@ public:
   Galerkin(const Numbering& numbering, MatrixPtr slave_rows,
            std::vector<MatrixPtr> prolongations);
 
-  /// @brief Whether the eliminated displacements are nearly those of the last
-  /// update; the same on all ranks.
-  bool nearly_serves(const ContactUpdate& update) const;
+  /// @brief Whether the eliminated displacements are those of the last update,
+  /// and there are no springs; the same on all ranks.
+  bool serves(const ContactUpdate& update) const;
 
   /// @brief Bring the matrices of the coarser levels from one state of the
   /// contacts to another.
@@ -42,7 +42,10 @@ public:
 private:
   Algebra& _algebra;
   mesh::Ranks& _ranks;
-  std::vector<MatrixPtr> _prolongations, _rows, _added;
+  std::vector<MatrixPtr> _prolongations;
+  // On the first coarser level: rows of the bulk's matrix at all slave nodes,
+  // and what was added last
+  MatrixPtr _rows, _added;
   std::vector<std::int32_t> _eliminated;
 };
 } // namespace contactx::condense

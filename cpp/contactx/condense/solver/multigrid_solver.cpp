@@ -58,7 +58,7 @@ bool MultigridSolver::solve(std::shared_ptr<CondensedOperator> K_c,
   if (_updated_for != _K_c)
   {
     const ContactUpdate change = _K_c->contact_update();
-    _serves = _galerkin->nearly_serves(change);
+    _serves = _galerkin->serves(change);
     update(change, not _serves);
   }
   if (iterate(rhs, v, target, slow))
