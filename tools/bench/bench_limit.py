@@ -4,8 +4,9 @@
 
 The limit is one linear elastic solve of the same mesh without contact: assembly, and CG with GAMG
 to 1e-8 with the rigid modes. Process CPU seconds on one thread, each run in a process of its own,
-all in turn, medians; finite sliding, both methods, without friction and with it. Beside it the
-fastest peer, as ``peers.csv`` and ``peers_friction.csv`` have it.
+all in turn, medians; finite sliding, both methods, without friction and with it. Memory is the peak
+resident size of a process, with imports and mesh, and what of it comes on top of the read mesh.
+Beside it the fastest peer, as ``peers.csv`` and ``peers_friction.csv`` have it.
 
     python tools/bench/bench_limit.py 0.02 0.01
 """
@@ -50,6 +51,8 @@ COLUMNS: list[tables.Column] = [
     ("Krylov", "krylov", "d"),
     ("CPU s", "cpu", ".2f"),
     ("linear solves", "ratio", ".2f"),
+    ("peak MB", "peak", ".0f"),
+    ("MB on the mesh", "memory", ".0f"),
 ]
 
 
@@ -65,7 +68,7 @@ def contact(path: str, method: str, friction: float) -> dict[str, Any]:
     meter = runner.Meter()
     scene = scenes.HertzSphere(data, "finite", method=method, friction=friction)
     scene.problem.solve()
-    return {**hertz_case.counts(scene.problem), **meter.read()}
+    return {**hertz_case.counts(scene.problem), **meter.read(), "peak": runner.memory("VmHWM")}
 
 
 def linear(path: str) -> dict[str, Any]:
@@ -108,7 +111,8 @@ def linear(path: str) -> dict[str, Any]:
     ksp.solve(b, x)
     if ksp.getConvergedReason() <= 0:
         raise cx.ConvergenceError("the linear solve did not converge")
-    return {"dofs": len(u.x.array), "krylov": ksp.its, **meter.read()}
+    seen = {**meter.read(), "peak": runner.memory("VmHWM")}
+    return {"dofs": len(u.x.array), "krylov": ksp.its, **seen}
 
 
 def run(sizes: Sequence[float]) -> list[dict[str, Any]]:
