@@ -12,16 +12,16 @@ namespace
 /// changes, relative
 constexpr double next_residual_min = 1e-5, next_residual_max = 0.1;
 /// Residual of a linear solve over that of the next iterate
-constexpr double solve_fraction = 0.6;
+constexpr double solve_fraction = 0.3;
 /// Number of solves at a step's start that are finer, and their factor: less
 /// accurate ones do not recognise slender bodies
 constexpr int num_fine_solves = 2;
-constexpr double fine_solve_factor = 0.15;
+constexpr double fine_solve_factor = 0.3;
 /// Residual of the last solves over Newton's tolerance: far less with friction,
 /// as errors must not decide between stick and slip
 constexpr double last_solve_fraction = 0.1, last_solve_fraction_friction = 0.01;
 /// Residual of a step's first solve over that of its iterate, with friction
-constexpr double first_solve_fraction_friction = 5e-11;
+constexpr double first_solve_fraction_friction = 1e-10;
 } // namespace
 
 void Accuracy::set(double residual, double tolerance, double changing,

@@ -36,9 +36,9 @@ TEST(Accuracy, IsAPartOfTheChangesOfTheActiveSet)
     EXPECT_NEAR(target(accuracy, 2, 0.05), 9e-3, 1e-15);
     EXPECT_NEAR(target(accuracy, 2, 0.9), 1.8e-2, 1e-15);
   }
-  EXPECT_NEAR(target(accuracy, 2, 1e-7), 1.2e-5, 1e-18);
-  EXPECT_NEAR(target(accuracy, 2, 0.05), 6e-2, 1e-15);
-  EXPECT_NEAR(target(accuracy, 2, 0.9), 1.2e-1, 1e-15);
+  EXPECT_NEAR(target(accuracy, 2, 1e-7), 6e-6, 1e-18);
+  EXPECT_NEAR(target(accuracy, 2, 0.05), 3e-2, 1e-15);
+  EXPECT_NEAR(target(accuracy, 2, 0.9), 6e-2, 1e-15);
   EXPECT_FALSE(accuracy.is_last());
 }
 
@@ -50,7 +50,7 @@ TEST(Accuracy, IsThatOfExactSolvesInTheFirstIterateOfAPath)
     accuracy.begin_step();
     EXPECT_NEAR(target(accuracy, 2, changing), 6e-11, 1e-24);
     EXPECT_NEAR(target(accuracy, 2, 0.05), 9e-3, 1e-15);
-    EXPECT_NEAR(target(accuracy, 2, 0.05), 6e-2, 1e-15);
+    EXPECT_NEAR(target(accuracy, 2, 0.05), 3e-2, 1e-15);
   }
 }
 
@@ -64,11 +64,11 @@ TEST(Accuracy, IsAPartOfWhatNewtonsMethodLeaves)
     const double least = has_path ? 1e-14 : 1e-13;
     EXPECT_NEAR(target(accuracy, 1e-2, 0), least, 1e-26);
     // A residual that goes with ten times the square of the last
-    EXPECT_NEAR(target(accuracy, 1e-3, 0), 6e-6, 1e-18);
+    EXPECT_NEAR(target(accuracy, 1e-3, 0), 3e-6, 1e-18);
     EXPECT_FALSE(accuracy.is_last());
-    EXPECT_NEAR(target(accuracy, 1e-5, 0), 6e-10, 1e-22);
+    EXPECT_NEAR(target(accuracy, 1e-5, 0), 3e-10, 1e-22);
     // At most some hundredths of the residual
-    EXPECT_NEAR(target(accuracy, 1e3, 0), 6e1, 1e-12);
+    EXPECT_NEAR(target(accuracy, 1e3, 0), 3e1, 1e-12);
     // And at the end far less than the tolerance
     target(accuracy, 1e-5, 0);
     EXPECT_NEAR(target(accuracy, 1e-9, 0), least, 1e-26);
@@ -87,7 +87,7 @@ TEST(Accuracy, IsThatOfASettledActiveSetOnceOneHasComeBack)
 {
   Accuracy accuracy(false);
   EXPECT_NEAR(target(accuracy, 1e-2, 0.5, true), 1e-13, 1e-26);
-  EXPECT_NEAR(target(accuracy, 1e-3, 0.5, true), 6e-6, 1e-18);
+  EXPECT_NEAR(target(accuracy, 1e-3, 0.5, true), 3e-6, 1e-18);
 }
 
 TEST(Accuracy, KeepsWhatItHasSeenForTheNextStep)
@@ -101,7 +101,7 @@ TEST(Accuracy, KeepsWhatItHasSeenForTheNextStep)
   see();
   accuracy.begin_step();
   // Not that 1e-6 comes after 1e-3
-  EXPECT_NEAR(target(accuracy, 1e-6, 0), 6e-12, 1e-24);
+  EXPECT_NEAR(target(accuracy, 1e-6, 0), 3e-12, 1e-24);
   accuracy.reset();
   EXPECT_NEAR(target(accuracy, 1e-6, 0), 1e-13, 1e-26);
 }
@@ -118,7 +118,7 @@ TEST(Accuracy, TakesNoStepForASolution)
     // A hundredth of what the square of the last residual says
     target(accuracy, 1e-7, 0);
     accuracy.begin_step();
-    EXPECT_NEAR(target(accuracy, 1e-2, 0), is_solved ? 6e-6 : 6e-4, 1e-12);
+    EXPECT_NEAR(target(accuracy, 1e-2, 0), is_solved ? 3e-6 : 3e-4, 1e-12);
   }
 }
 
