@@ -68,7 +68,7 @@ def contact(path: str, method: str, friction: float) -> dict[str, Any]:
     meter = runner.Meter()
     scene = scenes.HertzSphere(data, "finite", method=method, friction=friction)
     scene.problem.solve()
-    return {**hertz_case.counts(scene.problem), **meter.read(), "peak": runner.memory("VmHWM")}
+    return {**hertz_case.counts(scene.problem), **meter.read()}
 
 
 def linear(path: str) -> dict[str, Any]:
@@ -111,8 +111,7 @@ def linear(path: str) -> dict[str, Any]:
     ksp.solve(b, x)
     if ksp.getConvergedReason() <= 0:
         raise cx.ConvergenceError("the linear solve did not converge")
-    seen = {**meter.read(), "peak": runner.memory("VmHWM")}
-    return {"dofs": len(u.x.array), "krylov": ksp.its, **seen}
+    return {"dofs": len(u.x.array), "krylov": ksp.its, **meter.read()}
 
 
 def run(sizes: Sequence[float]) -> list[dict[str, Any]]:

@@ -91,10 +91,12 @@ class Meter:
         self._start = time.process_time()
 
     def read(self) -> dict[str, float]:
-        """CPU seconds, and the largest memory above that of the start, MB."""
+        """CPU seconds, and the largest memory, MB: above that of the start, and as it is."""
+        peak = memory("VmHWM")
         return {
             "cpu": time.process_time() - self._start,
-            "memory": memory("VmHWM") - self._memory,
+            "memory": peak - self._memory,
+            "peak": peak,
         }
 
 

@@ -47,8 +47,8 @@ struct SoftAndStiff
   std::vector<std::int32_t> stiff; ///< those of stiff ones
 };
 
-/// @brief K_c = (I + left) (K + S) (I + right) + law (I + right), with ones for
-/// what is eliminated.
+/// @brief K_c = (I + left) (K + S) (I + right) + law (I + right), with little
+/// on the diagonal for what is eliminated.
 ///
 /// Where eliminations need one another (I - C_r)^-1 right and left (I -
 /// C_l)^-1 take the place of right and left, see Elimination. It is applied as
