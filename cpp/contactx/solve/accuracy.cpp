@@ -44,6 +44,10 @@ void Accuracy::set(double residual, double tolerance, double changing,
         left, (_solves < num_fine_solves ? fine_solve_factor : 1.0)
                   * std::clamp(changing, next_residual_min, next_residual_max)
                   * residual);
+  // Where Newton's method leaves less than the tolerance, errors of the solve
+  // alone could make another iterate necessary
+  if (left <= tolerance)
+    left = 0;
   const double least
       = (_has_path ? last_solve_fraction_friction : last_solve_fraction)
         * tolerance;

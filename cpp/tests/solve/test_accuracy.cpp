@@ -76,6 +76,20 @@ TEST(Accuracy, IsAPartOfWhatNewtonsMethodLeaves)
   }
 }
 
+TEST(Accuracy, IsThatOfTheLastSolveWhereNewtonsMethodLeavesLessThanTheTolerance)
+{
+  // Ten times the square of 3e-7 is 9e-13, and of 4e-7 1.6e-12
+  for (const bool is_below : {true, false})
+  {
+    const double residual = is_below ? 3e-7 : 4e-7;
+    Accuracy accuracy(false);
+    target(accuracy, std::sqrt(residual / 10), 0);
+    EXPECT_NEAR(target(accuracy, residual, 0), is_below ? 1e-13 : 4.8e-13,
+                1e-20);
+    EXPECT_EQ(accuracy.is_last(), is_below);
+  }
+}
+
 TEST(Accuracy, ResidualsOfActiveSetsThatChangeSayNothingOfTheNext)
 {
   Accuracy accuracy(false);
