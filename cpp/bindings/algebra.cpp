@@ -94,6 +94,10 @@ public:
     _adapter.attr("set_diagonal")(look(diagonal));
   }
   void update() override { _adapter.attr("update")(); }
+  void cycle(std::span<const double> b, std::span<double> x) override
+  {
+    _adapter.attr("cycle")(look(b), lend(x));
+  }
   Iterations solve(std::span<const double> b, std::span<double> x,
                    bool is_symmetric, double target, int most) override
   {
@@ -167,6 +171,12 @@ public:
   MatrixPtr bulk_rows(std::span<const std::int32_t> dofs) override
   {
     return made(_adapter.attr("bulk_rows")(look(dofs)));
+  }
+  FieldBlocks field_blocks() override
+  {
+    const auto [uf, fu, ff]
+        = _adapter.attr("field_blocks")().cast<std::array<py::object, 3>>();
+    return {made(uf), made(fu), made(ff)};
   }
   std::span<const std::int8_t> prescribed() override
   {

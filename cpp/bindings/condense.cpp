@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "master.h"
-#include <contactx/condense/coupled_rows.h>
+#include <contactx/condense/contact_block.h>
 #include <optional>
 #include <pybind11/stl.h>
 
@@ -57,28 +57,14 @@ void contactx_bindings::condense(py::module_& m)
            py::kw_only(), py::arg("keeps_zeros") = false)
       .def(
           "multiply", [](const ContactBlock& self, const Array<double>& x)
-          { return array(self.multiply(view(x))); }, py::arg("x"));
-
-  m.def(
-      "coupled_rows",
-      [](const Array<std::int64_t>& offsets, const Array<std::int64_t>& columns,
-         const Array<double>& values, const ContactBlock& contact,
-         const Array<std::int64_t>& places, std::size_t num_owned,
-         std::size_t num_local)
-      {
-        const auto rows_of = [](const Rows& rows)
-        {
-          return py::make_tuple(array(rows.offsets), array(rows.columns),
-                                array(rows.values));
-        };
-        const CoupledRows found
-            = coupled(view(offsets), view(columns), view(values), contact,
-                      view(places), num_owned, num_local);
-        return py::make_tuple(rows_of(found.own), array(found.others),
-                              rows_of(found.added));
-      },
-      py::arg("offsets"), py::arg("columns"), py::arg("values"),
-      py::arg("contact"), py::arg("places"), py::arg("num_owned"),
-      py::arg("num_local"),
-      "Rows of the coupled system, and what is added to those of other ranks");
+          { return array(self.multiply(view(x))); }, py::arg("x"))
+      .def(
+          "entries",
+          [](const ContactBlock& self, const Array<std::int64_t>& places)
+          {
+            const Entries found = self.entries(view(places));
+            return py::make_tuple(array(found.rows), array(found.columns),
+                                  array(found.values));
+          },
+          py::arg("places"));
 }

@@ -121,7 +121,7 @@ public:
   /// fails but for chance.
   bool is_symmetric() override
   {
-    const ::Mat K = _bulk->matrix();
+    const ::Mat K = stiffness();
     if (_symmetry_of == assemblies())
       return _is_symmetric;
     petsc::OwnVec x, y, work;
@@ -148,17 +148,17 @@ public:
 
   MatrixPtr bulk() override
   {
-    const ::Mat K = _bulk->matrix();
+    const ::Mat K = stiffness();
     if (not _K or petsc::of(*_K) != K)
       _K = petsc::share(K);
     return _K;
   }
 
-  MatrixPtr bulk_copy() override { return petsc::duplicate(_bulk->matrix()); }
+  MatrixPtr bulk_copy() override { return petsc::duplicate(stiffness()); }
 
   MatrixPtr bulk_rows(std::span<const std::int32_t> dofs) override
   {
-    const ::Mat K = _bulk->matrix();
+    const ::Mat K = stiffness();
     if (_rows and _rows_of == assemblies())
       return _rows;
     PetscInt first = 0, last = 0;
@@ -177,6 +177,12 @@ public:
                  "MatCreateSubMatrix");
     _rows_of = assemblies();
     return _rows;
+  }
+
+  contactx::condense::FieldBlocks field_blocks() override
+  {
+    const auto& blocks = parts();
+    return {blocks[0][1], blocks[1][0], blocks[1][1]};
   }
 
   std::span<const std::int8_t> prescribed() override
@@ -234,12 +240,70 @@ public:
   }
 
 private:
+  using Blocks = std::vector<std::vector<MatrixPtr>>;
+
+  /// The Jacobian by displacements.
+  ::Mat stiffness()
+  {
+    return _bulk->fields() ? petsc::of(*parts()[0][0]) : _bulk->matrix();
+  }
+
+  /// Blocks of the displacement and of all other fields.
+  const Blocks& parts()
+  {
+    _bulk->assemble();
+    if (std::exchange(_parts_of, assemblies()) == assemblies())
+      return _parts;
+    _parts.clear();
+    Blocks all;
+    _bulk->for_each_part(
+        [&](int i, std::span<const std::int32_t> rows)
+        {
+          auto& row = all.emplace_back();
+          _bulk->for_each_part(
+              [&](int j, std::span<const std::int32_t> columns)
+              {
+                const MatrixPtr K = petsc::share(_bulk->block(i, j));
+                const contactx::condense::Layout at = layout(*K);
+                row.push_back(submatrix(*K, numbers(at.first_row, rows),
+                                        numbers(at.first_column, columns)));
+              });
+        });
+    for (const auto& [first, last] :
+         {std::pair(std::size_t(0), std::size_t(1)), {1, all.size()}})
+    {
+      Blocks left, right;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        left.push_back({all[i].front()});
+        right.emplace_back(all[i].begin() + 1, all[i].end());
+      }
+      _parts.push_back({joined(left), joined(right)});
+    }
+    return _parts;
+  }
+
+  MatrixPtr joined(const Blocks& blocks)
+  {
+    return blocks.size() * blocks[0].size() == 1 ? blocks[0][0] : join(blocks);
+  }
+
+  static std::vector<std::int64_t> numbers(std::int64_t first,
+                                           std::span<const std::int32_t> dofs)
+  {
+    std::vector<std::int64_t> numbers;
+    for (const std::int32_t dof : dofs)
+      numbers.push_back(first + dof);
+    return numbers;
+  }
+
   Assembler* _assembler;
   std::shared_ptr<Bulk> _bulk;
   std::string _prefix;
   std::shared_ptr<petsc::Matrix> _K, _rows;
+  Blocks _parts;
   // Assemblies that these are of
-  int _rows_of = -1, _symmetry_of = -1;
+  int _rows_of = -1, _symmetry_of = -1, _parts_of = -1;
   bool _is_symmetric = false;
 };
 } // namespace contactx_dolfinx

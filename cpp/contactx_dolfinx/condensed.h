@@ -28,7 +28,7 @@ public:
   /// @param[in] assembler The system; it must outlive the solver.
   /// @param[in] prefix Prefix of PETSc's options of the Krylov solver and its
   /// multigrid; with `bodies_` and `direct_` behind it those of other solvers.
-  /// @throws std::invalid_argument if other fields are solved for, too.
+  /// @throws std::invalid_argument if there are conductances.
   Condensed(Assembler& assembler, const std::string& prefix)
       : _solver(checked(assembler).problem(),
                 std::make_shared<Algebra>(assembler, prefix))
@@ -75,10 +75,11 @@ public:
 private:
   static Assembler& checked(Assembler& assembler)
   {
-    if (assembler.bulk()->fields())
+    if (not assembler.bulk()->conductances().empty())
       throw std::invalid_argument(
-          "the condensed solver is for a displacement alone: where other "
-          "fields are solved for take a KSPSolver, with a direct one");
+          "the condensed solver is for fields that do not flow across "
+          "contacts: "
+          "where there are conductances take a KSPSolver, with a direct one");
     return assembler;
   }
 

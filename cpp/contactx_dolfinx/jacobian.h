@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bulk.h"
-#include <contactx/condense/coupled_rows.h>
+#include <contactx/condense/contact_block.h>
 #include <contactx/mesh/spread.h>
 #include <contactx/solve/system.h>
 
@@ -38,39 +38,34 @@ public:
   /// displacements (shape=(num_displacements)), or nothing.
   void assemble(::Mat A, const std::optional<std::vector<double>>& springs)
   {
-    const contactx::mesh::Halo& halo = *_system->halo();
     const contactx::condense::ContactBlock contact(_system->contacts(),
                                                    _system->markers(), true);
-    const contactx::condense::Rows& bulk = bulk_rows();
     const std::vector<std::int64_t> places = this->places();
-    const contactx::condense::CoupledRows rows = contactx::condense::coupled(
-        bulk.offsets, bulk.columns, bulk.values, contact, places,
-        _system->num_displacements(),
-        std::size_t(halo.num_nodes()) * halo.gdim());
+    contactx::condense::Entries all = of_bulk();
+    add(all, contact.entries(places));
+    for (const auto& conductance : _bulk->conductances())
+      add(all, of_conductance(*conductance, places));
 
     PetscObjectId id = 0;
     petsc::check(PetscObjectGetId(reinterpret_cast<PetscObject>(A), &id),
                  "PetscObjectGetId");
-    Pattern pattern{id,          rows.own.offsets,   rows.own.columns,
-                    rows.others, rows.added.offsets, rows.added.columns};
-    // That of a flow goes with gaps and pressures, too
     const bool same
-        = _bulk->conductances().empty()
-          and contactx::mesh::everywhere(halo.ranks(), pattern == _pattern);
-    _pattern = std::move(pattern);
-    if (same)
-      petsc::check(MatZeroEntries(A), "MatZeroEntries");
-    else
-      petsc::check(MatResetHash(A), "MatResetHash");
-    std::vector<std::int64_t> own(_system->size());
-    std::iota(own.begin(), own.end(), _start);
-    add(A, own, rows.own);
-    add(A, rows.others, rows.added);
-    for (const auto& conductance : _bulk->conductances())
-      add(A, *conductance, places);
-    petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
-    petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
-
+        = id == _matrix and all.rows == _rows and all.columns == _columns;
+    if (not contactx::mesh::everywhere(_system->halo()->ranks(), same))
+    {
+      _matrix = id;
+      _rows = std::move(all.rows);
+      _columns = std::move(all.columns);
+      // PETSc adds entries of one place, and brings those of other ranks' rows
+      // there; it writes into what it is given
+      std::vector<PetscInt> i(_rows.begin(), _rows.end()),
+          j(_columns.begin(), _columns.end());
+      petsc::check(MatSetPreallocationCOO(A, static_cast<PetscCount>(i.size()),
+                                          i.data(), j.data()),
+                   "MatSetPreallocationCOO");
+    }
+    petsc::check(MatSetValuesCOO(A, all.values.data(), INSERT_VALUES),
+                 "MatSetValuesCOO");
     finish(A, *_system, springs);
   }
 
@@ -102,14 +97,6 @@ public:
   }
 
 private:
-  struct Pattern
-  {
-    PetscObjectId matrix = 0;
-    std::vector<std::int64_t> offsets, columns, others, added_offsets,
-        added_columns;
-    bool operator==(const Pattern&) const = default;
-  };
-
   /// Places of the displacements of all nodes, then of this rank's multipliers.
   std::vector<std::int64_t> places() const
   {
@@ -129,103 +116,59 @@ private:
     return places;
   }
 
-  /// Rows of the bulk's Jacobian, kept while it stays: displacements, then
-  /// other fields.
-  const contactx::condense::Rows& bulk_rows()
+  /// Entries of the bulk's Jacobian, kept while it stays.
+  const contactx::condense::Entries& of_bulk()
   {
     _bulk->assemble();
-    if (_bulk->assemblies() == _assemblies)
-      return _rows;
+    if (std::exchange(_assemblies, _bulk->assemblies()) == _bulk->assemblies())
+      return _of_bulk;
+    const bool is_known = not _of_bulk.rows.empty();
+    _of_bulk.values.clear();
     const int n = static_cast<int>(_bulk->functions().size());
-    std::vector<std::int64_t> firsts{0};
-    for (const auto& w : _bulk->functions())
-    {
-      const auto& dofs = *w->function_space()->dofmap();
-      firsts.push_back(firsts.back()
-                       + dofs.index_map_bs() * dofs.index_map->size_global());
-    }
-    contactx::condense::Rows rows{{0}, {}, {}};
-    _bulk->for_each_part(
-        [&](int k, const std::vector<std::int32_t>& dofs)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+      {
+        // The forms, and with them the pattern, stay the same
+        std::vector<std::int64_t> columns;
+        const std::vector<std::int64_t> mine = places_of(i);
+        append(_bulk->block(i, j), is_known ? nullptr : &columns, mine);
+        if (not is_known)
         {
-          for (const std::int32_t dof : dofs)
-          {
-            for (int j = 0; j < n; ++j)
-              append(rows, _bulk->block(k, j), dof, firsts[j]);
-            rows.offsets.push_back(
-                static_cast<std::int64_t>(rows.columns.size()));
-          }
-        });
-    if (contactx::mesh::everywhere(_system->halo()->ranks(),
-                                   rows.offsets == _rows.offsets))
-      rows.columns = std::move(_rows.columns);
-    else
-      find_places(rows, firsts);
-    if (not _order.empty())
-    {
-      std::vector<double> values(rows.values.size());
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = rows.values[_order[i]];
-      rows.values = std::move(values);
-    }
-    _rows = std::move(rows);
-    _assemblies = _bulk->assemblies();
-    return _rows;
+          const std::vector<std::int64_t> places = places_of(j, columns);
+          _of_bulk.columns.insert(_of_bulk.columns.end(), places.begin(),
+                                  places.end());
+        }
+      }
+    return _of_bulk;
   }
 
-  /// Appends a row of a block, its columns counted over all functions.
-  static void append(contactx::condense::Rows& rows, ::Mat K, std::int32_t row,
-                     std::int64_t first_column)
+  /// Appends the entries of a block.
+  /// @param[in] K The block.
+  /// @param[out] columns Their columns, as the block has them; null if the rows
+  /// are known, too.
+  /// @param[in] places Places of its rows.
+  void append(::Mat K, std::vector<std::int64_t>* columns,
+              std::span<const std::int64_t> places)
   {
-    PetscInt first = 0, count = 0;
-    petsc::check(MatGetOwnershipRange(K, &first, nullptr),
+    PetscInt row = 0;
+    petsc::check(MatGetOwnershipRange(K, &row, nullptr),
                  "MatGetOwnershipRange");
-    const PetscInt* columns = nullptr;
-    const PetscScalar* values = nullptr;
-    petsc::check(MatGetRow(K, first + row, &count, &columns, &values),
-                 "MatGetRow");
-    for (PetscInt j = 0; j < count; ++j)
-      rows.columns.push_back(first_column + columns[j]);
-    rows.values.insert(rows.values.end(), values, values + count);
-    petsc::check(MatRestoreRow(K, first + row, &count, &columns, &values),
-                 "MatRestoreRow");
-  }
-
-  /// Puts places where columns are, in each row in their order.
-  void find_places(contactx::condense::Rows& rows,
-                   std::span<const std::int64_t> firsts)
-  {
-    std::vector<std::int64_t> wanted = rows.columns;
-    std::ranges::sort(wanted);
-    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
-    std::vector<std::int64_t> places;
-    for (std::size_t j = 0; j + 1 < firsts.size(); ++j)
+    for (const std::int64_t place : places)
     {
-      const auto begin = std::ranges::lower_bound(wanted, firsts[j]);
-      const auto end = std::ranges::lower_bound(wanted, firsts[j + 1]);
-      const auto some = places_of(static_cast<int>(j), firsts[j], {begin, end});
-      places.insert(places.end(), some.begin(), some.end());
+      PetscInt count = 0;
+      const PetscInt* numbers = nullptr;
+      const PetscScalar* values = nullptr;
+      petsc::check(MatGetRow(K, row, &count, &numbers, &values), "MatGetRow");
+      _of_bulk.values.insert(_of_bulk.values.end(), values, values + count);
+      if (columns)
+      {
+        columns->insert(columns->end(), numbers, numbers + count);
+        _of_bulk.rows.resize(_of_bulk.values.size(), place);
+      }
+      petsc::check(MatRestoreRow(K, row, &count, &numbers, &values),
+                   "MatRestoreRow");
+      ++row;
     }
-    for (std::int64_t& column : rows.columns)
-      column
-          = places[std::ranges::lower_bound(wanted, column) - wanted.begin()];
-    _order.resize(rows.columns.size());
-    std::iota(_order.begin(), _order.end(), 0);
-    for (std::size_t r = 0; r + 1 < rows.offsets.size(); ++r)
-      std::sort(_order.begin() + rows.offsets[r],
-                _order.begin() + rows.offsets[r + 1],
-                [&](std::size_t a, std::size_t b)
-                { return rows.columns[a] < rows.columns[b]; });
-    // As they are for a displacement alone
-    if (std::ranges::is_sorted(_order))
-    {
-      _order.clear();
-      return;
-    }
-    std::vector<std::int64_t> columns(_order.size());
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i] = rows.columns[_order[i]];
-    rows.columns = std::move(columns);
   }
 
   /// Places of the dofs of a function that this rank owns.
@@ -249,9 +192,8 @@ private:
 
   /// Places of some dofs of a function, of any ranks.
   /// @param[in] function Number of the function.
-  /// @param[in] first What its first dof is counted as.
   /// @param[in] wanted The dofs.
-  std::vector<std::int64_t> places_of(int function, std::int64_t first,
+  std::vector<std::int64_t> places_of(int function,
                                       std::span<const std::int64_t> wanted)
   {
     const std::vector<std::int64_t> own = places_of(function);
@@ -262,9 +204,7 @@ private:
                  "VecCreateMPI");
     // Numbers up to 2^53 are exact
     std::ranges::copy(own, petsc::Values(every.get()).span().begin());
-    std::vector<PetscInt> numbers;
-    for (const std::int64_t number : wanted)
-      numbers.push_back(static_cast<PetscInt>(number - first));
+    const std::vector<PetscInt> numbers(wanted.begin(), wanted.end());
     const auto count = static_cast<PetscInt>(numbers.size());
     petsc::check(VecCreateSeq(PETSC_COMM_SELF, count, found.put()),
                  "VecCreateSeq");
@@ -286,13 +226,13 @@ private:
     return {values.span().begin(), values.span().end()};
   }
 
-  /// Adds the derivatives of a conductance.
-  /// @param[in] A Jacobian, not scaled yet.
+  /// Derivatives of a conductance.
   /// @param[in] conductance What flows.
   /// @param[in] places Those of the displacements of all nodes, then of this
   /// rank's multipliers.
-  void add(::Mat A, Conductance& conductance,
-           std::span<const std::int64_t> places)
+  contactx::condense::Entries
+  of_conductance(Conductance& conductance,
+                 std::span<const std::int64_t> places) const
   {
     const int k = _bulk->number_of(*conductance.field());
     const std::vector<std::int8_t>& markers = _bulk->markers_of(k);
@@ -309,44 +249,42 @@ private:
         break;
       multiplier += c->nodes()->multiplier.size();
     }
-    const contactx::results::Derivatives of = conductance.derivatives();
-    const auto add_entries =
+    contactx::condense::Entries entries;
+    const auto append =
         [&](const contactx::Triplets& T, std::span<const std::int64_t> columns)
     {
       for (std::size_t e = 0; e < T.size(); ++e)
         if (const auto node = T.rows[e]; not fixed[node])
-          petsc::check(MatSetValue(A, static_cast<PetscInt>(dofs[node]),
-                                   static_cast<PetscInt>(columns[T.columns[e]]),
-                                   T.values[e], ADD_VALUES),
-                       "MatSetValue");
+        {
+          entries.rows.push_back(dofs[node]);
+          entries.columns.push_back(columns[T.columns[e]]);
+          entries.values.push_back(T.values[e]);
+        }
     };
-    add_entries(of.by_field, dofs);
-    add_entries(of.by_displacement, places);
-    add_entries(of.by_multiplier, places.subspan(multiplier));
+    const contactx::results::Derivatives of = conductance.derivatives();
+    append(of.by_field, dofs);
+    append(of.by_displacement, places);
+    append(of.by_multiplier, places.subspan(multiplier));
+    return entries;
   }
 
-  static void add(::Mat A, std::span<const std::int64_t> numbers,
-                  const contactx::condense::Rows& rows)
+  static void add(contactx::condense::Entries& all,
+                  const contactx::condense::Entries& more)
   {
-    std::vector<PetscInt> columns;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-    {
-      const auto row = static_cast<PetscInt>(numbers[i]);
-      const auto begin = rows.offsets[i], end = rows.offsets[i + 1];
-      columns.assign(rows.columns.begin() + begin, rows.columns.begin() + end);
-      petsc::check(
-          MatSetValues(A, 1, &row, static_cast<PetscInt>(columns.size()),
-                       columns.data(), rows.values.data() + begin, ADD_VALUES),
-          "MatSetValues");
-    }
+    all.rows.insert(all.rows.end(), more.rows.begin(), more.rows.end());
+    all.columns.insert(all.columns.end(), more.columns.begin(),
+                       more.columns.end());
+    all.values.insert(all.values.end(), more.values.begin(), more.values.end());
   }
 
   std::shared_ptr<contactx::solve::System> _system;
   std::shared_ptr<Bulk> _bulk;
   std::int64_t _start = 0; // place of this rank's first unknown
-  contactx::condense::Rows _rows;
-  std::vector<std::size_t> _order; // of the entries, as blocks have them
+  // Those of the bulk, and the assembly that they are of
+  contactx::condense::Entries _of_bulk;
   int _assemblies = -1;
-  Pattern _pattern;
+  // The matrix that has places for rows and columns
+  PetscObjectId _matrix = 0;
+  std::vector<std::int64_t> _rows, _columns;
 };
 } // namespace contactx_dolfinx

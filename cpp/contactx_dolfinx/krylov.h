@@ -263,6 +263,16 @@ public:
                                                      : failed};
   }
 
+  /// @brief Apply its preconditioner, x = M b; what functions have thrown comes
+  /// at the end.
+  void precondition(std::span<const double> b, std::span<double> x)
+  {
+    const Placed right(_b.get(), b), found(_x.get(), x);
+    const PetscErrorCode error = PCApply(pc(), _b.get(), _x.get());
+    _quiet.end();
+    check(error, "PCApply");
+  }
+
   /// @brief Apply factors, x = A^-1 b or x = A^-T b; NaN where there are none.
   /// @return Whether there are.
   bool apply(std::span<const double> b, std::span<double> x, bool transposed)
@@ -478,6 +488,11 @@ public:
     check(PCReset(pc_of(_smoothers.back())), "PCReset");
     for (std::size_t k = 0; k < _matrices.size(); ++k)
       set_operators(_smoothers[k + 1], of(*_matrices[k]), of(*_matrices[k]));
+  }
+
+  void cycle(std::span<const double> b, std::span<double> x) override
+  {
+    _krylov.precondition(b, x);
   }
 
   Iterations solve(std::span<const double> b, std::span<double> x,

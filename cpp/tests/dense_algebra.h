@@ -30,6 +30,9 @@ public:
   /// Whether multigrid and bodies converge
   bool multigrid_converges = true, bodies_converge = true;
   std::string asked; ///< what options ask for
+  /// Rows of other fields by displacements, the transpose of forces by fields,
+  /// and by themselves
+  Dense of_fields, by_fields;
 
   struct Held final : condense::Matrix
   {
@@ -70,6 +73,10 @@ public:
     for (std::size_t i = 0; i < dofs.size(); ++i)
       rows.row(i) = _K.row(dofs[i]);
     return hold(rows);
+  }
+  condense::FieldBlocks field_blocks() override
+  {
+    return {hold(of_fields.transpose()), hold(of_fields), hold(by_fields)};
   }
   std::span<const std::int8_t> prescribed() override
   {
@@ -274,6 +281,10 @@ private:
       _diagonal.assign(diagonal.begin(), diagonal.end());
     }
     void update() override { _is_updated = true; }
+    void cycle(Span b, std::span<double> x) override
+    {
+      std::ranges::copy(solution(dense_of(_multiply, b.size()), b), x.begin());
+    }
     Iterations solve(Span b, std::span<double> x, bool is_symmetric,
                      double target, int) override
     {

@@ -435,10 +435,10 @@ class ContactAssembler:
         self._condensed.hand_to(ksp)
 
     def _check_condensed(self, condensed: bool) -> None:
-        if condensed and self.bulk.fields:
+        if condensed and self.bulk.conductances:
             raise ValueError(
-                "the condensed solver is for a displacement alone: leave condensed out where other "
-                "fields are solved for with it"
+                "the condensed solver is for fields that do not flow across contacts: leave "
+                "condensed out where there are conductances"
             )
 
     def limit(self, dx: PETSc.Vec) -> float:

@@ -164,9 +164,11 @@ class Conductance:
         index_map = self.field.function_space.dofmap.index_map
         size = (index_map.size_local, None)
         C = PETSc.Mat().createAIJ((size, size), comm=self._halo.comm)
-        C.setUp()
-        add_entries(C, dofs[entries.rows], dofs[entries.columns], entries.values)
-        C.assemble()
+        places = (
+            dofs[numbers].astype(PETSc.IntType) for numbers in (entries.rows, entries.columns)
+        )
+        C.setPreallocationCOO(*places)
+        C.setValuesCOO(entries.values, addv=PETSc.InsertMode.INSERT)
         ghosts = np.arange(index_map.size_local + index_map.num_ghosts, dtype=np.int32)
         numbers = index_map.local_to_global(ghosts).astype(PETSc.IntType)
         lgmap = PETSc.LGMap().create(numbers, comm=self._halo.comm)
@@ -228,27 +230,6 @@ class Conductance:
             core.Coefficient(self.coefficient),
             self._obstacle_value,
         )
-
-
-def add_entries(A: PETSc.Mat, rows: Index, columns: Index, values: Array) -> None:
-    """Add entries to a matrix, those in rows of other ranks, too; it must be assembled then.
-
-    Args:
-        A: The matrix.
-        rows: Numbers of rows over the ranks, shape (n,).
-        columns: Numbers of columns, shape (n,).
-        values: Values, shape (n,).
-    """
-    order = np.argsort(rows, kind="stable")
-    which, counts = np.unique(rows[order], return_counts=True)
-    offsets = np.concatenate([[0], np.cumsum(counts)])
-    A.setValuesIJV(
-        offsets.astype(PETSc.IntType),
-        columns[order].astype(PETSc.IntType),
-        values[order],
-        addv=PETSc.InsertMode.ADD,
-        rowmap=which.astype(PETSc.IntType),
-    )
 
 
 def check_conductances(

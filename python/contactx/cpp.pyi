@@ -414,6 +414,9 @@ class ContactBlock:
         *,
         keeps_zeros: bool = False,
     ) -> None: ...
+    def entries(
+        self, places: ArrayLike
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
     def multiply(self, x: ArrayLike) -> NDArray[np.float64]: ...
 
 class End:
@@ -864,19 +867,6 @@ def check_straight(
     local: ArrayLike,
 ) -> None: ...
 def coefficients(law: str, num_nodes: Int, gdim: Int, num_slaves: Int = 1) -> tuple: ...
-def coupled_rows(
-    offsets: ArrayLike,
-    columns: ArrayLike,
-    values: ArrayLike,
-    contact: ContactBlock,
-    places: ArrayLike,
-    num_owned: Int,
-    num_local: Int,
-) -> tuple[
-    tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],
-    NDArray[np.int64],
-    tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],
-]: ...
 def deformed_cells(
     cells: ArrayLike, X: ArrayLike, u: ArrayLike, gdim: Int
 ) -> tuple[float, int, int]: ...

@@ -118,12 +118,18 @@ class ContactProblem:
         system, options = self.assembler.system, petsc_options or {}
         self.displacement = self.assembler.u
         dofs = self.displacement.x.index_map.size_global * system.block
-        condensed = is_condensed(options, dofs, system.block, has_friction=system.has_friction)
-        if self.assembler.bulk.fields:
+        condensed = is_condensed(
+            options,
+            dofs,
+            system.block,
+            has_friction=system.has_friction,
+            has_fields=bool(self.assembler.bulk.fields),
+        )
+        if self.assembler.bulk.conductances:
             if condensed and "pc_type" in options:
                 raise ValueError(
-                    "petsc_options['pc_type'] is 'condensed', which is for a displacement alone: "
-                    "leave it out where other fields are solved for with it"
+                    "petsc_options['pc_type'] is 'condensed', which is for fields that do not flow "
+                    "across contacts: leave it out where there are conductances"
                 )
             condensed = False
         self._options = newton_options(petsc_options_prefix, options, condensed=condensed)

@@ -8,6 +8,7 @@
 #include "scenes.h"
 #include "several_fields.h"
 #include <contactx_dolfinx/checkpoint.h>
+#include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/obstacles.h>
 
 using namespace dolfinx;
@@ -95,17 +96,19 @@ std::vector<double> figures(const cx::Contact& contact,
   return values;
 }
 
-/// Whether figures are the same but for the order of sums, to 1e-10 of 1 or of
-/// themselves, as compare.py has it.
-bool same(const std::vector<double>& one, const std::vector<double>& other)
+/// Whether figures are the same but for a part of 1 or of themselves: by
+/// default the order of sums, as compare.py has it.
+bool same(const std::vector<double>& one, const std::vector<double>& other,
+          double part = 1e-10)
 {
   return std::ranges::equal(
-      one, other, [](double a, double b)
-      { return std::abs(a - b) <= 1e-10 * std::max(1.0, std::abs(a)); });
+      one, other, [part](double a, double b)
+      { return std::abs(a - b) <= part * std::max(1.0, std::abs(a)); });
 }
 
 /// Three steps and their figures. From what was saved before the last one, on
-/// whatever number of ranks, that is taken again by another Assembler.
+/// whatever number of ranks, that is taken again by another Assembler, and once
+/// more by the condensed solver, which knows no conductances.
 void steps(const Scene& scene, const std::string& name,
            const cx::Blocks& blocks, const Conditions& bcs,
            const std::shared_ptr<fem::Constant<T>>& push,
@@ -179,6 +182,26 @@ void steps(const Scene& scene, const std::string& name,
                     + scenes::text_of(again));
     if (history->x()->array() != kept or place != plan)
       std::printf("%sanother history or plan\n", from.c_str());
+    if (conductance)
+    {
+      try
+      {
+        cx::Condensed(assembler, "condensed_");
+        std::printf("%scondensed in spite of a conductance\n", from.c_str());
+      }
+      catch (const std::invalid_argument&)
+      {
+      }
+      continue;
+    }
+    cx::Checkpoint(assembler, {history}).read(file(ranks), &place);
+    cx::Condensed condensed(assembler, "condensed_");
+    assembler.solve(condensed);
+    const std::vector<double> split = figures(*contact, functions, conductance);
+    if (not same(split, last, 1e-8) or condensed.direct() > 0
+        or condensed.iterations() == 0)
+      scenes::print("condensed, " + from + std::to_string(condensed.direct())
+                    + " direct " + scenes::text_of(split));
   }
 }
 

@@ -7,7 +7,6 @@
 #include "sliding_block.h"
 #include <basix/finite-element.h>
 #include <contactx_dolfinx/checkpoint.h>
-#include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/dynamics.h>
 #include <contactx_dolfinx/forms.h>
 #include <contactx_dolfinx/obstacles.h>
@@ -317,12 +316,6 @@ int main(int argc, char* argv[])
                     two, none, {mine}, cx::Assembler::Audit::refuse,
                     {std::make_shared<cx::Conductance>(mine, field, h, 1.0)});
               });
-    refuses("the condensed solver is for a displacement alone",
-            [&]
-            {
-              cx::Assembler several(two, none, one());
-              cx::Condensed(several, "");
-            });
 
     // Checkpoints
     cx::Checkpoint checkpoint(assembler);

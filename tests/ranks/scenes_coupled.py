@@ -52,8 +52,14 @@ def heat_across() -> Iterator[cx.ContactProblem]:
         yield problem
 
 
-def _solved(kind: str, cell: CellType = CellType.triangle) -> Iterator[cx.ContactProblem]:
-    scene = Coupled(kind, cell, friction=0.2)
+def pressure_condensed() -> Iterator[cx.ContactProblem]:
+    yield from _solved("mixed", CellType.tetrahedron, {"pc_type": "condensed"})
+
+
+def _solved(
+    kind: str, cell: CellType = CellType.triangle, solver: Any = None
+) -> Iterator[cx.ContactProblem]:
+    scene = Coupled(kind, cell, petsc_options=solver, friction=0.2)
     for down in (-0.03, -0.05):
         scene.down.value = down
         scene.problem.solve()

@@ -47,13 +47,20 @@ class Coupled:
         down: Displacement of the top.
     """
 
-    def __init__(self, kind: str, cell: CellType = CellType.triangle, **options: Any):
+    def __init__(
+        self,
+        kind: str,
+        cell: CellType = CellType.triangle,
+        petsc_options: dict[str, Any] | None = None,
+        **options: Any,
+    ):
         """Set up.
 
         Args:
             kind: "plain", "mixed" with the pressure in cells, "mixed, pressure first", "blocks",
                 "MINI", or "neo-Hooke" in MINI's elements.
             cell: Cells.
+            petsc_options: Options of the solver.
             options: Options of the contact.
         """
         dim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
@@ -71,7 +78,12 @@ class Coupled:
         self.F = F
         self.contact = self.new_contact(**options)
         self.problem = make_problem(
-            F, self.w, [self.contact], self.bcs, displacement=self.displacement
+            F,
+            self.w,
+            [self.contact],
+            self.bcs,
+            displacement=self.displacement,
+            petsc_options=petsc_options,
         )
 
     def new_contact(self, **options: Any) -> cx.Contact:

@@ -194,6 +194,21 @@ ContactBlock::ContactBlock(const Contacts& contacts,
   }
 }
 
+Entries ContactBlock::entries(std::span<const std::int64_t> places) const
+{
+  check::require(places.size() == size(),
+                 "places must have a number for each unknown");
+  Entries all;
+  for (std::size_t row = 0; row < size(); ++row)
+    for (auto e = _offsets[row]; e < _offsets[row + 1]; ++e)
+    {
+      all.rows.push_back(places[row]);
+      all.columns.push_back(places[_columns[e]]);
+    }
+  all.values = _values;
+  return all;
+}
+
 std::vector<double> ContactBlock::multiply(std::span<const double> x) const
 {
   check::require(x.size() == size(), "x must have a value for each unknown");

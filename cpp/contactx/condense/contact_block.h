@@ -9,6 +9,14 @@
 
 namespace contactx::condense
 {
+/// @brief Entries of a sparse matrix in numbers that all ranks know.
+struct Entries
+{
+  std::vector<std::int64_t> rows;    ///< rows
+  std::vector<std::int64_t> columns; ///< columns
+  std::vector<double> values;        ///< values
+};
+
 /// @brief Contacts' part of a Jacobian, of this rank's pairs.
 ///
 /// Rows and columns are this rank's unknowns: the displacements of all nodes on
@@ -39,6 +47,11 @@ public:
 
   /// @brief The entries.
   CompressedRows entries() const { return {_offsets, _columns, _values}; }
+
+  /// @brief The entries, in numbers of all ranks.
+  /// @param[in] places Number of each unknown of this rank (shape=(size)).
+  /// @throws std::invalid_argument if places has another size.
+  Entries entries(std::span<const std::int64_t> places) const;
 
   /// @brief Multiply, y = A x.
   /// @throws std::invalid_argument if x has another size.

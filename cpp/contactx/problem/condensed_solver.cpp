@@ -37,6 +37,7 @@ CondensedSolver::CondensedSolver(Problem& problem,
     : _problem(problem), _algebra(std::move(algebra)),
       _accuracy(has_path(*problem.system())), _multigrid(*_algebra, tuning),
       _soft_stiff(*_algebra, problem.bodies(), tuning),
+      _field_split(*_algebra, _multigrid, tuning),
       _factorised(*_algebra, tuning)
 {
 }
@@ -49,6 +50,7 @@ void CondensedSolver::reset()
   _predictor.reset();
   _multigrid.reset();
   _soft_stiff.reset();
+  _field_split.reset();
   _factorised.reset();
   _accuracy.reset();
 }
@@ -71,6 +73,7 @@ void CondensedSolver::follow()
     _predictor.begin_step(std::move(now));
     _multigrid.begin_step();
     _soft_stiff.begin_step();
+    _field_split.begin_step();
     _factorised.begin_step();
     _accuracy.begin_step();
     _statistics = {};
@@ -84,11 +87,12 @@ CondensedSolver::Statistics CondensedSolver::statistics()
   follow();
   Statistics found = _statistics;
   found.iterations = _multigrid.iterations() + _soft_stiff.iterations()
-                     + _factorised.iterations();
+                     + _field_split.iterations() + _factorised.iterations();
   found.hierarchies = _multigrid.hierarchies();
   found.seconds = _algebra->seconds;
   found.factorised = _factorised.factorisations();
-  found.factorisations = _soft_stiff.factorisations() + found.factorised;
+  found.factorisations = _soft_stiff.factorisations()
+                         + _field_split.factorisations() + found.factorised;
   return found;
 }
 
@@ -175,12 +179,20 @@ std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
 
 bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
 {
+  solve::Fields* fields = _problem.system()->bulk()->fields();
   const std::shared_ptr<CondensedOperator> K_c = condensed(b);
   const condense::Condensation& condensation = *_condensation;
   const solve::System& system = *_problem.system();
-  const std::size_t n = _numbering->num_owned();
-  const Spans given = b.first(n), constraints = b.subspan(n);
+  const bool is_retained
+      = mesh::anywhere(_numbering->ranks(), not K_c->retained().dofs.empty());
+  if (fields and is_retained)
+    throw condense::NotCondensable(retained_multipliers);
+  // Displacements, then other fields
+  const std::size_t n = _numbering->num_owned(), num_bulk = system.num_bulk();
+  const Spans given = b.first(n), constraints = b.subspan(num_bulk);
   const auto prescribed = _algebra->prescribed();
+  if (fields)
+    _field_split.update(K_c, fields->offsets());
 
   auto right = condensation.right_hand_side(constraints);
   std::vector<double> w = _numbering->reverse(std::move(right.forces));
@@ -191,22 +203,27 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
   std::vector<double> balance = w, h(right.shift.begin(),
                                      right.shift.begin() + std::ptrdiff_t(n));
   K_c->place(h);
-  std::vector<double> work(n), rhs(n), v(n, 0);
+  std::vector<double> work(n), rhs(num_bulk), v(num_bulk, 0);
   K_c->multiply_bulk(h, work);
   for (std::size_t i = 0; i < n; ++i)
     w[i] -= work[i];
-  K_c->combine(w, rhs);
-  K_c->add_law(h, rhs, -1);
+  const std::span<double> of_displacements = std::span(rhs).first(n);
+  K_c->combine(w, of_displacements);
+  K_c->add_law(h, of_displacements, -1);
   for (std::size_t i = 0; i < n; ++i)
     rhs[i] += right.extra[i];
   for (const std::int32_t dof : K_c->eliminated())
     rhs[dof] = 0;
-
-  const auto predicted = _predictor.start(*K_c, system.factors(), b, rhs, v,
-                                          max_predicted_residual * target());
-  _is_predicted = predicted.has_value();
-  if (predicted)
+  if (fields)
   {
+    const std::vector<double> rows = _field_split.rows(h, Spans(v).subspan(n));
+    for (std::size_t i = n; i < num_bulk; ++i)
+      rhs[i] = b[i] - rows[i - n];
+  }
+  else if (auto predicted = _predictor.start(*K_c, system.factors(), b, rhs, v,
+                                             max_predicted_residual * target()))
+  {
+    _is_predicted = true;
     std::ranges::copy(*predicted, x.begin());
     return true;
   }
@@ -215,16 +232,21 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
   {
     // A small part of what loads a stiff body is much for a soft one
     const double weight = K_c->residual_weight(*_problem.bodies(), given);
-    target = std::min(
-        target, std::max(target * weight,
-                         min_rtol * condense::norm(_numbering->ranks(), rhs)));
+    target = std::min(target, std::max(target * weight,
+                                       min_rtol
+                                           * condense::norm(_numbering->ranks(),
+                                                            of_displacements)));
   }
-  if (not iterate(K_c, rhs, v, target))
+  if (not(fields ? iterate_with_fields(rhs, v, target)
+                 : iterate(K_c, is_retained, rhs, v, target)))
     return false;
-  K_c->expand(v, work);
+  const Spans moved = Spans(v).first(n), others = Spans(v).subspan(n);
+  K_c->expand(moved, work);
   for (std::size_t i = 0; i < n; ++i)
     h[i] += work[i];
   K_c->multiply_bulk(h, work);
+  if (fields)
+    _field_split.add_forces(others, 1, work);
   for (std::size_t i = 0; i < n; ++i)
     balance[i] -= work[i];
   K_c->release(balance);
@@ -232,18 +254,32 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
                        right.multipliers);
   for (std::size_t i = 0; i < n; ++i)
     x[i] = prescribed[i] ? given[i] : h[i];
+  std::ranges::copy(others, x.begin() + std::ptrdiff_t(n));
   for (std::size_t i = 0; i < right.multipliers.size(); ++i)
-    x[n + i] = right.multipliers[i] / system.factors()[i];
+    x[num_bulk + i] = right.multipliers[i] / system.factors()[i];
   return true;
+}
+
+/// Solves with other fields; whether iterations converged.
+bool CondensedSolver::iterate_with_fields(Spans rhs, std::span<double> x,
+                                          double target)
+{
+  solve::Loop& loop = _problem.loop();
+  const std::vector<double> weights = loop.convergence().weights_of_fields(
+      _field_split.sizes(rhs.first(_numbering->num_owned())),
+      loop.iterate().residual);
+  if (_field_split.solve(rhs, weights, x, target))
+    return true;
+  ++_failures.bodies;
+  return false;
 }
 
 /// Solves the condensed system, by multigrid where it is fast; whether
 /// iterations converged.
-bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c, Spans rhs,
-                              std::span<double> v, double target)
+bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c,
+                              bool is_needed, Spans rhs, std::span<double> v,
+                              double target)
 {
-  const bool is_needed
-      = mesh::anywhere(_numbering->ranks(), not K_c->retained().dofs.empty());
   const bool is_asked = _algebra->preconditioner() == "bodies";
   if (not is_needed and not is_asked and _failures.multigrid < max_failures)
   {
@@ -284,6 +320,21 @@ void CondensedSolver::multiply(std::span<const double> x, std::span<double> y)
   _algebra->update_bulk();
   std::vector<double> w(n);
   _algebra->multiply(*_algebra->bulk(), x.first(n), w);
+  if (system.bulk()->fields())
+  {
+    const std::size_t m = system.num_bulk() - n;
+    const condense::FieldBlocks blocks = _algebra->field_blocks();
+    std::vector<double> forces(n), rows(m);
+    _algebra->multiply(*blocks.uf, x.subspan(n, m), forces);
+    std::ranges::transform(forces, w, w.begin(), std::plus());
+    for (const auto& [A, of] : {std::pair(blocks.fu, x.first(n)),
+                                std::pair(blocks.ff, x.subspan(n, m))})
+    {
+      _algebra->multiply(*A, of, rows);
+      for (std::size_t i = 0; i < m; ++i)
+        y[n + i] += rows[i];
+    }
+  }
   for (std::size_t i = 0; i < n; ++i)
     y[i] += w[i];
   if (const condense::Springs& own = springs())

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../condense/solver/factorised.h"
+#include "../condense/solver/field_split.h"
 #include "../condense/solver/multigrid_solver.h"
 #include "../condense/solver/predictor.h"
 #include "../condense/solver/soft_stiff.h"
@@ -17,8 +18,9 @@ namespace contactx::problem
 /// The displacements that are left are found by CG, or GMRES where friction
 /// slips, with a multigrid hierarchy that is updated with the contact. Where
 /// multigrid is slow, and where multipliers remain unknowns, a block
-/// preconditioner of soft and stiff bodies takes its place. What cannot be
-/// condensed goes to a direct solver whose factors serve several Jacobians.
+/// preconditioner of soft and stiff bodies takes its place. Other fields are
+/// solved for together with the displacements, by field splitting. What cannot
+/// be condensed goes to a direct solver whose factors serve several Jacobians.
 /// Each solve is as accurate as the next residual will show.
 ///
 /// It follows the problem by itself: where a step has started, or was taken
@@ -76,8 +78,9 @@ private:
   const condense::Springs& springs() const;
   std::shared_ptr<condense::CondensedOperator> condensed(Spans b);
   bool solve_condensed(Spans b, std::span<double> x);
-  bool iterate(std::shared_ptr<condense::CondensedOperator> K_c, Spans rhs,
-               std::span<double> v, double target);
+  bool iterate(std::shared_ptr<condense::CondensedOperator> K_c, bool is_needed,
+               Spans rhs, std::span<double> v, double target);
+  bool iterate_with_fields(Spans rhs, std::span<double> x, double target);
   void solve_directly(Spans b, std::span<double> x, std::string reason);
 
   Problem& _problem;
@@ -85,6 +88,7 @@ private:
   solve::Accuracy _accuracy;
   condense::MultigridSolver _multigrid;
   condense::SoftStiffSolver _soft_stiff;
+  condense::FieldSplitSolver _field_split;
   condense::FactorisedSolver _factorised;
   condense::Predictor _predictor;
   std::shared_ptr<const condense::Numbering> _numbering;

@@ -144,6 +144,21 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
   return excess;
 }
 
+std::vector<double>
+Convergence::weights_of_fields(std::span<const double> sizes, double residual)
+{
+  _field_scales.resize(sizes.size());
+  const double force = std::max({scale(), _scales.force.value_or(0), residual});
+  std::vector<double> weights;
+  for (std::size_t f = 0; f < sizes.size(); ++f)
+  {
+    _field_scales[f] = std::max(_field_scales[f], sizes[f]);
+    const bool is_known = force > 0 and _field_scales[f] > 0;
+    weights.push_back(is_known ? force / _field_scales[f] : 1);
+  }
+  return weights;
+}
+
 Convergence::Result Convergence::compare(std::span<const double> b, double rtol,
                                          double atol)
 {

@@ -77,6 +77,13 @@ public:
   /// scene, or the largest Dirichlet value, which may take a body anywhere.
   double farthest();
 
+  /// @brief Factors by which residuals of other fields compare with forces.
+  /// @param[in] sizes What the displacements' change alone would leave in the
+  /// rows of each field, which counts as a residual that the field has had.
+  /// @param[in] residual Residual of now: forces are that large at least.
+  std::vector<double> weights_of_fields(std::span<const double> sizes,
+                                        double residual);
+
   /// @brief True if a residual would deform bodies by less than anyone asks
   /// for.
   bool may_be_rounding(double residual) const;

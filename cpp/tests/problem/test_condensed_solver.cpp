@@ -15,8 +15,10 @@ namespace
 /// Two bodies of springs that are pressed on each other in steps.
 struct Pressed
 {
-  explicit Pressed(double friction) : bodies(2), friction(friction)
+  explicit Pressed(double friction, std::shared_ptr<LooseFields> others = {})
+      : bodies(2), friction(friction)
   {
+    bodies.bulk->others = std::move(others);
     bodies.add<NodeToSurface>(bodies.law(friction), Sliding::small);
     bodies.bulk->bar = 2;
     bodies.press(0.09, 0.01);
@@ -131,4 +133,59 @@ TEST(CondensedSolver, MultipliesByTheJacobian)
   const std::vector<double> exact = product(J, x);
   for (std::size_t i = 0; i < x.size(); ++i)
     EXPECT_NEAR(y[i], exact[i], 1e-10 * J.norm());
+}
+
+TEST(CondensedSolver, SolvesForOtherFieldsTogether)
+{
+  for (const double friction : {0., 0.3})
+  {
+    SCOPED_TRACE(friction);
+    Pressed pressed(friction, std::make_shared<LooseFields>(
+                                  std::vector<std::size_t>{0, 2, 5}));
+    SpringBulk& bulk = *pressed.bodies.bulk;
+    const auto n = static_cast<Eigen::Index>(pressed.bodies.scene.u->size());
+    // Two pressures, which resist no volume, and a field of its own stiffness
+    std::srand(3);
+    Eigen::MatrixXd C = Eigen::MatrixXd::Random(5, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (bulk.markers()[i])
+        C.col(i).setZero();
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(5, 5);
+    S.diagonal().tail(3).setConstant(4);
+    pressed.algebra->of_fields = C;
+    pressed.algebra->by_fields = S;
+    pressed.solver->tuning.roughness = 1e-12;
+
+    Problem& problem = pressed.bodies.problem();
+    problem.begin_step();
+    problem.settle(1e-12, 0, 10);
+    const Eigen::MatrixXd contact = pressed.bodies.matrix();
+    const Eigen::Index rest = contact.rows() - n;
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + 5 + rest, n + 5 + rest);
+    J.topLeftCorner(n, n) = contact.topLeftCorner(n, n);
+    J.topRightCorner(n, rest) = contact.topRightCorner(n, rest);
+    J.bottomLeftCorner(rest, n) = contact.bottomLeftCorner(rest, n);
+    J.bottomRightCorner(rest, rest) = contact.bottomRightCorner(rest, rest);
+    J.block(n, 0, 5, n) = C;
+    J.block(0, n, n, 5) = C.transpose();
+    J.block(n, n, 5, 5) = S;
+
+    std::vector<double> b(J.rows()), x(J.rows()), y(J.rows());
+    for (std::size_t i = 0; i < b.size(); ++i)
+      b[i] = std::sin(1.0 + double(i));
+    pressed.solver->solve(b, x);
+    const std::vector<double> exact = solution(J, b);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(x[i], exact[i], 1e-8 * math::column(exact).norm());
+    const auto found = pressed.solver->statistics();
+    EXPECT_TRUE(found.direct.empty());
+    EXPECT_TRUE(found.by_bodies.empty());
+    // Exact but for the Schur complement, which has rank five
+    EXPECT_LE(found.iterations, 12);
+    EXPECT_EQ(pressed.algebra->factorised["fields"], 1);
+
+    pressed.solver->multiply(exact, y);
+    for (std::size_t i = 0; i < y.size(); ++i)
+      EXPECT_NEAR(y[i], b[i], 1e-9 * J.norm());
+  }
 }

@@ -82,7 +82,7 @@ class Algebra:
 
     def bulk(self) -> PETSc.Mat:
         """The bulk's Jacobian."""
-        return self._bulk.matrix()
+        return self._bulk.stiffness()
 
     def bulk_copy(self) -> PETSc.Mat:
         """A copy of it; of one that stays no more than half is kept from then on."""
@@ -97,6 +97,10 @@ class Algebra:
     def bulk_rows(self, dofs: Index) -> PETSc.Mat:
         """Some of its rows."""
         return self._bulk.rows(dofs)
+
+    def field_blocks(self) -> tuple[PETSc.Mat, PETSc.Mat, PETSc.Mat]:
+        """What of it concerns other fields."""
+        return self._bulk.of_other_fields()
 
     def matrix(
         self, num_rows: int, num_columns: int, rows: Index, columns: Index, values: Array
@@ -245,7 +249,7 @@ class Algebra:
         hierarchy = Hierarchy(A, multiply, self._prefix)
         A.setNearNullSpace(PETSc.NullSpace())
         # PETSc keeps the matrix, but nothing in it is used again
-        if A.handle == self._bulk.matrix().handle:
+        if A.handle == self._bulk.stiffness().handle:
             self._bulk.keep_half()
         else:
             A.setPreallocationNNZ(0)
@@ -426,6 +430,11 @@ class Hierarchy:
         self._coarser[-1].getPC().reset()
         for smoother, A in zip(self._coarser, self.matrices, strict=True):
             smoother.setOperators(A, A)
+
+    def cycle(self, b: Array, x: Array) -> None:
+        """Apply one cycle."""
+        with self._callbacks.solving(), _Placed(self._b, b) as f, _Placed(self._x, x) as u:
+            self._ksp.getPC().apply(f, u)
 
     def solve(
         self, b: Array, x: Array, is_symmetric: bool, target: float, most: int

@@ -15,13 +15,14 @@ import numpy.typing as npt
 
 import ufl
 from contactx._host.blocks import Blocks
+from contactx._host.parallel.reduce import everywhere
 from contactx._host.unknowns import Unknowns
 from contactx.conductance import Conductance
 from dolfinx import fem
 
 type Array = npt.NDArray[np.float64]
 type Index = npt.NDArray[np.int64]
-type Rows = tuple[Index, Index, Array]
+type Entries = tuple[Index, Index, Array]
 
 
 class Bulk:
@@ -82,8 +83,10 @@ class Bulk:
         self._A: PETSc.Mat = None
         self._rows: PETSc.Mat | None = None
         self._symmetric: bool | None = None
-        # Order of the entries of the blocks in rows, None if it is theirs, offsets and columns
-        self._order: tuple[npt.NDArray[np.intp] | None, Index, Index] | None = None
+        # Blocks of the displacement and of all other fields
+        self._split: list[list[PETSc.Mat]] | None = None
+        # Rows and columns of the entries of the blocks
+        self._at: tuple[Index, Index] | None = None
         # Rows of other fields that were assembled last, by what they are
         self._of_fields: dict[str, Array] = {}
         self.markers = np.zeros(len(self.u.x.array), dtype=np.int8)
@@ -183,41 +186,66 @@ class Bulk:
     def _assemble(self) -> bool:
         if not self.blocks.assemble():
             return False
-        blocks = self.blocks.matrices
-        if len(blocks) == 1:
-            self._A = blocks[0][0]
-        elif self._A is None:
-            self._A = PETSc.Mat().createNest(blocks, comm=self.comm)
-        else:
-            self._A.assemble()
-        self._symmetric = self._rows = None
+        self._A = self.blocks.matrices[0][0]
+        self._symmetric = self._rows = self._split = None
         self.assemblies += 1
         return True
 
-    def matrix(self) -> PETSc.Mat:
-        """Jacobian for products, of whatever matrix type it is stored as."""
+    def stiffness(self) -> PETSc.Mat:
+        """Jacobian by displacements, for products, of whatever matrix type it is stored as."""
         self._assemble()
-        return self._A
+        return self._parts()[0][0] if self.fields else self._A
+
+    def of_other_fields(self) -> tuple[PETSc.Mat, PETSc.Mat, PETSc.Mat]:
+        """Blocks of displacements by other fields, of these by displacements, and by themselves."""
+        self._assemble()
+        (_, uf), (fu, ff) = self._parts()
+        return uf, fu, ff
+
+    def _parts(self) -> list[list[PETSc.Mat]]:
+        """Blocks of the displacement and of all other fields; all ranks must take part."""
+        if self._split is None:
+            places = [(self.unknowns.index, self._own), *self.fields]
+            blocks = [[self._part(row, column) for column in places] for row in places]
+            ends = (slice(0, 1), slice(1, None))
+            self._split = [[_joined([r[j] for r in blocks[i]]) for j in ends] for i in ends]
+        return self._split
+
+    def _part(self, row: tuple[int, Index], column: tuple[int, Index]) -> PETSc.Mat:
+        """Derivative of some rows of a function by some dofs of another one, of owned numbers."""
+        (i, rows), (j, columns) = row, column
+        K = self.blocks.matrices[i][j]
+        if len(rows) == K.getLocalSize()[0] and len(columns) == K.getLocalSize()[1]:
+            # All of a block, unless there is another order of the nodes in it
+            same = np.array_equal(rows, np.arange(len(rows)))
+            same = same and np.array_equal(columns, np.arange(len(columns)))
+            if everywhere(self.comm, same):
+                return K
+        first, last = K.getOwnershipRange()[0], K.getOwnershipRangeColumn()[0]
+        sets = [
+            PETSc.IS().createGeneral((start + dofs).astype(PETSc.IntType), comm=self.comm)
+            for start, dofs in ((first, rows), (last, columns))
+        ]
+        return K.createSubMatrix(*sets)
 
     def lend(self) -> PETSc.Mat:
         """The Jacobian in rows, of which ``keep_half`` leaves half; a copy where it would not."""
-        A = self.matrix()
         may_halve = self.is_linear and self._is_whole and self.is_symmetric
-        return A if may_halve else self.copy()
+        return self.stiffness() if may_halve or self.fields else self.copy()
 
     def copy(self) -> PETSc.Mat:
         """Copy of the Jacobian in rows, with unit rows and columns at Dirichlet conditions."""
-        A = self.matrix()
+        A = self.stiffness()
         return A.copy() if self._is_whole else A.convert("aij", PETSc.Mat())
 
     @property
     def _is_whole(self) -> bool:
         """True if all entries are stored, not half of a symmetric matrix."""
-        return self._A.getType() not in ("seqsbaij", "mpisbaij")
+        return self.stiffness().getType() not in ("seqsbaij", "mpisbaij")
 
     def keep_half(self) -> None:
         """Keep only half of a Jacobian that stays and is symmetric: half the memory to pass."""
-        if self.is_linear and self._is_whole and self.is_symmetric:
+        if not self.fields and self.is_linear and self._is_whole and self.is_symmetric:
             self._A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
             # In place: others may have the matrix, too
             self._A.convert("sbaij")
@@ -226,10 +254,10 @@ class Bulk:
 
     @property
     def is_symmetric(self) -> bool:
-        """True if the Jacobian is symmetric."""
-        self._assemble()
+        """True if the Jacobian by displacements is symmetric."""
+        K = self.stiffness()
         if self._symmetric is None:
-            self._symmetric = _is_symmetric(self._A)
+            self._symmetric = _is_symmetric(K)
         return self._symmetric
 
     def _stiffness(self) -> PETSc.Mat:
@@ -260,12 +288,12 @@ class Bulk:
         return results
 
     def rows(self, dofs: npt.NDArray[np.integer]) -> PETSc.Mat:
-        """Some rows of the Jacobian, for nobody to change.
+        """Some rows of the Jacobian by displacements, for nobody to change.
 
         Args:
             dofs: Which owned ones, in order; the same ones every time.
         """
-        A = self.matrix()
+        A = self.stiffness()
         if self._rows is None:
             if not self._is_whole:
                 A = self.copy()
@@ -275,51 +303,35 @@ class Bulk:
             self._rows = A.createSubMatrix(some, every)
         return self._rows
 
-    def rows_in(self, own: Index) -> Rows:
-        """Rows of the Jacobian assembled last: displacements, then other fields.
+    def entries(self, own: Index) -> Entries:
+        """Entries of the Jacobian assembled last: rows, columns and values.
 
         All ranks must take part.
 
         Args:
-            own: Places of this rank's rows, in that order, shape (num_rows,).
-
-        Returns:
-            Rows with places for columns.
+            own: Numbers of this rank's rows, displacements, then other fields, shape (num_rows,).
         """
         matrices = self.blocks.matrices or [[self.copy()]]
         blocks = [[K.getValuesCSR() for K in row] for row in matrices]
-        values = np.concatenate([v for row in blocks for _, _, v in row])
-        if self._order is None:
+        if self._at is None:
             # The forms, and with them the pattern, stay the same
-            self._order = self._ordered(blocks, own)
-        order, offsets, columns = self._order
-        return offsets, columns, values if order is None else values[order]
+            self._at = self._placed(blocks, own)
+        return *self._at, np.concatenate([v for row in blocks for _, _, v in row])
 
-    def _ordered(
-        self, blocks: list[list[Any]], own: Index
-    ) -> tuple[npt.NDArray[np.intp] | None, Index, Index]:
-        """Order of the entries of blocks in rows, where rows begin, and the columns."""
-        if not self.fields:
-            indptr, indices, _ = blocks[0][0]
-            return None, indptr.astype(np.int64), self._places(0, own, indices.astype(np.int64))
+    def _placed(self, blocks: list[list[Any]], own: Index) -> tuple[Index, Index]:
+        """Rows and columns of the entries of blocks."""
         # Which of this rank's rows a dof of a function is
-        numbers = [np.empty(count, dtype=np.int64) for count in self.blocks.counts]
-        at = len(self._own)
-        numbers[self.unknowns.index][self._own] = np.arange(at)
-        for k, dofs in self.fields:
-            numbers[k][dofs] = np.arange(at, at + len(dofs))
+        places = [np.empty(count, dtype=np.int64) for count in self.blocks.counts]
+        at = 0
+        for k, dofs in [(self.unknowns.index, self._own), *self.fields]:
+            places[k][dofs] = own[at : at + len(dofs)]
             at += len(dofs)
-        rows: list[Index] = []
-        columns: list[Index] = []
-        for mine, row in zip(numbers, blocks, strict=True):
+        rows, columns = [], []
+        for mine, row in zip(places, blocks, strict=True):
             for j, (indptr, indices, _) in enumerate(row):
                 rows.append(np.repeat(mine, np.diff(indptr)))
-                columns.append(self._places(j, own[numbers[j]], indices.astype(np.int64)))
-        every, column = np.concatenate(rows), np.concatenate(columns)
-        order = np.lexsort((column, every))
-        offsets = np.zeros(at + 1, dtype=np.int64)
-        np.cumsum(np.bincount(every, minlength=at), out=offsets[1:])
-        return order, offsets, column[order]
+                columns.append(self._places(j, places[j], indices.astype(np.int64)))
+        return np.concatenate(rows), np.concatenate(columns)
 
     def _places(self, k: int, own: Index, columns: Index) -> Index:
         """Places of a function's dofs of any rank, of which this rank's own are given."""
@@ -379,6 +391,13 @@ class Bulk:
         np.maximum.at(result, cells, sizes[:, None])
         owned: npt.NDArray[np.float64] = result[: V.dofmap.index_map.size_local]
         return owned
+
+
+def _joined(blocks: list[list[PETSc.Mat]]) -> PETSc.Mat:
+    """Join blocks to one matrix."""
+    if len(blocks) == len(blocks[0]) == 1:
+        return blocks[0][0]
+    return PETSc.Mat().createNest(blocks, comm=blocks[0][0].comm).convert("aij", PETSc.Mat())
 
 
 def _is_symmetric(K: PETSc.Mat) -> bool:

@@ -20,6 +20,8 @@ ROUNDING = 1e-13
 # Dofs of the displacement from which on multigrid is faster than a direct solver, by the
 # dimension: without friction, and with it, where systems are not symmetric (bench_solvers)
 _MIN_CONDENSED_DOFS = {2: (4_000, 300_000), 3: (2_500, 2_500)}
+# The same where other fields are solved for, too (bench_solvers)
+_MIN_CONDENSED_DOFS_OF_MIXED = {2: (300_000, 300_000), 3: (12_000, 12_000)}
 
 
 # PETSc's numbers of errors for a type, and for a package, that it does not have
@@ -158,7 +160,14 @@ def newton_options(prefix: str, given: Mapping[str, Any], *, condensed: bool) ->
     return SolverOptions(prefix, given, {**_newton(), **_direct()})
 
 
-def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int, *, has_friction: bool) -> bool:
+def is_condensed(
+    given: Mapping[str, Any],
+    num_dofs: int,
+    gdim: int,
+    *,
+    has_friction: bool,
+    has_fields: bool,
+) -> bool:
     """True if the condensed solver is taken: by the options, or by the size of the problem.
 
     Args:
@@ -166,10 +175,12 @@ def is_condensed(given: Mapping[str, Any], num_dofs: int, gdim: int, *, has_fric
         num_dofs: Number of displacements.
         gdim: Geometric dimension.
         has_friction: Whether a contact has friction.
+        has_fields: Whether other fields are solved for with the displacement.
     """
     if "pc_type" in given:
         return bool(given["pc_type"] == "condensed")
-    return num_dofs >= _MIN_CONDENSED_DOFS[gdim][has_friction] and "ksp_type" not in given
+    least = _MIN_CONDENSED_DOFS_OF_MIXED if has_fields else _MIN_CONDENSED_DOFS
+    return num_dofs >= least[gdim][has_friction] and "ksp_type" not in given
 
 
 def _newton() -> dict[str, Any]:

@@ -16,12 +16,12 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from contactx._host.bulk import Bulk, Index, Rows
+from contactx._host.bulk import Bulk, Entries, Index
 from contactx._host.bulk_host import BulkHost
 from contactx._host.discrete_contact import DiscreteContact
 from contactx._host.parallel.halo import Halo
-from contactx._host.parallel.reduce import anywhere, everywhere
-from contactx.conductance import Conductance, add_entries
+from contactx._host.parallel.reduce import everywhere
+from contactx.conductance import Conductance
 
 
 class Layout:
@@ -53,15 +53,10 @@ class Layout:
         """Places of the bulk's unknowns of this rank."""
         return np.arange(self._start, self._start + self._num_bulk, dtype=np.int64)
 
-    def matrix(self, rows: Rows) -> PETSc.Mat:
-        """Matrix of all unknowns; all ranks must take part.
-
-        Args:
-            rows: This rank's rows, in places.
-        """
-        size, (offsets, columns, values) = (self._size, None), rows
-        csr = offsets.astype(PETSc.IntType), columns.astype(PETSc.IntType), values
-        return PETSc.Mat().createAIJ((size, size), csr=csr, comm=self._halo.comm)
+    def matrix(self) -> PETSc.Mat:
+        """Matrix of all unknowns without entries; all ranks must take part."""
+        size = self._size, None
+        return PETSc.Mat().createAIJ((size, size), comm=self._halo.comm)
 
 
 class SaddlePointSystem:
@@ -100,9 +95,9 @@ class SaddlePointSystem:
         self.num_bulk = self._offsets[1]
         self._make_vectors()
         self._layout = Layout(halo, self.num_bulk, self._offsets[-1])
-        # Rows of the bulk, and the number of its assemblies when they were taken
-        self._rows: tuple[int, Rows] | None = None
-        # Places of the entries of the last Jacobian
+        # Entries of the bulk, and the number of its assemblies when they were taken
+        self._of_bulk: tuple[int, Entries] | None = None
+        # Rows and columns of the entries of the last Jacobian
         self._pattern: tuple[npt.NDArray[np.int64], ...] = ()
 
     @property
@@ -153,24 +148,17 @@ class SaddlePointSystem:
         """
         contact = core.ContactBlock(self.discrete_contacts, self.core.markers(), keeps_zeros=True)
         places = self.places()
-        rows, others, added = core.coupled_rows(
-            *self._bulk_rows(), contact, places, self.num_displacements, self.num_local
-        )
-        pattern = (*rows[:2], others, *added[:2])
-        same = A is not None and all(map(np.array_equal, pattern, self._pattern))
-        if A is None or not everywhere(self._comm, same):
-            self._pattern = pattern
-            A = self._layout.matrix(rows)
-        else:
-            A.zeroEntries()
-            _add(A, rows, None)
-        if anywhere(self._comm, len(others) > 0):
-            A.assemble(PETSc.Mat.AssemblyType.FLUSH)
-            A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
-            _add(A, added, others)
+        parts = [self._bulk_entries(), contact.entries(places)]
         for conductance in self._bulk.conductances:
-            self._add_conductance(A, conductance, places)
-        A.assemble()
+            parts += self._conducted(conductance, places)
+        rows, columns, values = (np.concatenate(each) for each in zip(*parts, strict=True))
+        same = A is not None and all(map(np.array_equal, (rows, columns), self._pattern))
+        if A is None or not everywhere(self._comm, same):
+            self._pattern = rows, columns
+            A = self._layout.matrix()
+            # PETSc adds entries of one place, and brings those of other ranks' rows there
+            A.setPreallocationCOO(rows.astype(PETSc.IntType), columns.astype(PETSc.IntType))
+        A.setValuesCOO(values, addv=PETSc.InsertMode.INSERT)
         self.finish(A, springs)
         return A
 
@@ -210,13 +198,10 @@ class SaddlePointSystem:
             for name, row, column in (("K", u, u), ("B", u, w), ("C", w, u), ("D", w, w))
         }
 
-    def _add_conductance(
-        self, A: PETSc.Mat, conductance: Conductance, places: npt.NDArray[np.int64]
-    ) -> None:
-        """Add the derivatives of a conductance; all ranks must take part.
+    def _conducted(self, conductance: Conductance, places: Index) -> list[Entries]:
+        """Derivatives of a conductance; all ranks must take part.
 
         Args:
-            A: Jacobian, not scaled yet.
             conductance: What flows.
             places: Places of the displacements of all nodes, then of this rank's multipliers.
         """
@@ -228,35 +213,22 @@ class SaddlePointSystem:
         free = conductance.at_nodes(bulk.blocks.markers[k].astype(np.int64)) == 0
         at = self._offsets[1 + self.discrete_contacts.index(discrete)] - self.num_bulk
         all_columns = dofs, places, places[self.num_local + at :]
-        derivatives = conductance.derivatives()
-        A.assemble(PETSc.Mat.AssemblyType.FLUSH)
-        A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
-        for entries, columns in zip(derivatives, all_columns, strict=True):
+        parts = []
+        for entries, columns in zip(conductance.derivatives(), all_columns, strict=True):
             rows, column, values = entries.rows, columns[entries.columns], entries.values
             keep = free[rows]
-            add_entries(A, dofs[rows[keep]], column[keep], values[keep])
+            parts.append((dofs[rows[keep]], column[keep], values[keep]))
+        return parts
 
-    def _bulk_rows(self) -> Rows:
-        """Rows of the bulk's Jacobian, which are kept where it does not change."""
+    def _bulk_entries(self) -> Entries:
+        """Entries of the bulk's Jacobian, which are kept where it does not change."""
         bulk = self._bulk
         bulk.update()
-        if self._rows is None or not bulk.is_linear or self._rows[0] != bulk.assemblies:
-            self._rows = bulk.assemblies, bulk.rows_in(self._layout.bulk())
-        return self._rows[1]
+        if self._of_bulk is None or self._of_bulk[0] != bulk.assemblies:
+            self._of_bulk = bulk.assemblies, bulk.entries(self._layout.bulk())
+        return self._of_bulk[1]
 
     @property
     def has_friction(self) -> bool:
         """True if any contact measures slip."""
         return any(discrete.history is not None for discrete in self.discrete_contacts)
-
-
-def _add(A: PETSc.Mat, rows: Rows, which: npt.NDArray[np.int64] | None) -> None:
-    """Add rows to a matrix: those of this rank, or some by their places."""
-    offsets, columns, values = rows
-    A.setValuesIJV(
-        offsets.astype(PETSc.IntType),
-        columns.astype(PETSc.IntType),
-        values,
-        addv=PETSc.InsertMode.ADD,
-        rowmap=None if which is None else which.astype(PETSc.IntType),
-    )

@@ -63,10 +63,10 @@ def test_terms_of_different_quadrature(cell, kind):
     assert np.abs(whole.residual() - expected).max() <= 1e-13 * np.abs(expected).max()
     expected = sum(bulk.lifted() for bulk in alone)
     assert np.abs(whole.lifted() - expected).max() <= 1e-13 * np.abs(expected).max()
-    K = whole.matrix()
-    sums = alone[0].matrix().copy()
+    K = whole.stiffness()
+    sums = alone[0].stiffness().copy()
     for bulk in alone[1:]:
-        sums.axpy(1.0, bulk.matrix())
+        sums.axpy(1.0, bulk.stiffness())
     prescribed = np.flatnonzero(whole.markers)
     diagonal = K.getDiagonal().array
     assert (diagonal[prescribed] == 1).all()
@@ -89,9 +89,9 @@ def test_a_load_that_changes_does_not_hide_a_constant_of_one_part():
     F = elasticity(u, 1.0, 0.3) + factor * ufl.div(u) * ufl.div(v) * ufl.dx(degree=0)
     bulk = bulk_of(F, u, scene.bcs)
     assert bulk.is_linear
-    first = bulk.matrix().norm()
+    first = bulk.stiffness().norm()
     factor.value = 2.0
-    assert bulk.matrix().norm() > 1.1 * first
+    assert bulk.stiffness().norm() > 1.1 * first
     bulk.update()
     assert bulk.skipped == 1
 

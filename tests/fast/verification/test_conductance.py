@@ -326,3 +326,11 @@ class TestRefusals:
         make_problem(scene.F[0], scene.u, [rigid], scene.hold)
         with pytest.raises(ValueError, match="rigid obstacle"):
             rigid.on_both(rigid.pressure)
+
+
+def test_the_condensed_solver_is_for_fields_that_do_not_flow_across():
+    scene = HeatedBlocks(CellType.triangle)
+    options = {"conductances": [scene.conductance], "displacement": 0}
+    arguments = scene.F, [scene.u, scene.T], [scene.contact], scene.heat + scene.hold
+    with pytest.raises(ValueError, match="leave it out where there are conductances"):
+        make_problem(*arguments, petsc_options={"pc_type": "condensed"}, **options)

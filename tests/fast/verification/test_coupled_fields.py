@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Displacements that are a part of a mixed space, or one of several functions."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -286,13 +288,45 @@ def test_a_mixed_space_needs_to_say_which_part():
         cx.ContactAssembler(F, w, contacts=[scene.new_contact()], displacement=0)
 
 
-def test_the_condensed_solver_is_for_displacements_alone():
-    scene = Coupled("mixed")
-    with pytest.raises(ValueError, match="for a displacement alone"):
-        make_problem(
-            scene.F,
-            scene.w,
-            [scene.new_contact()],
-            displacement=0,
-            petsc_options={"pc_type": "condensed"},
-        )
+@pytest.mark.parametrize(
+    ("kind", "cell", "name"),
+    [
+        *product([*KINDS, "MINI"], [CellType.tetrahedron], OPTIONS),
+        *product(["mixed", "MINI"], [CellType.triangle], OPTIONS),
+        # Without friction it has two solutions, with four and with five nodes closed
+        *product(["neo-Hooke"], [CellType.triangle], list(OPTIONS)[1:]),
+    ],
+)
+def test_fields_are_split_from_condensed_displacements(kind, cell, name):
+    options = OPTIONS[name]
+    direct = Coupled(kind, cell, **options)
+    direct.problem.solve()
+    split = Coupled(kind, cell, petsc_options={"pc_type": "condensed"}, **options)
+    split.problem.solve()
+    report = split.problem.report
+    assert report.krylov > 0
+    assert report.uncondensed == []
+    # On so few nodes errors of a solve decide on one that touches
+    assert report.iterations <= direct.problem.report.iterations + 3
+    for a, b in zip(split.functions, direct.functions, strict=True):
+        size = np.abs(b.x.array).max()
+        assert np.abs(a.x.array - b.x.array).max() < 1e-9 * size
+    assert split.contact.force == pytest.approx(direct.contact.force, rel=1e-9)
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-6])
+def test_heat_is_split_from_condensed_displacements(unit):
+    answers = []
+    for pc in ("lu", "condensed"):
+        F, u, T, heat, hold, contact = thermal()
+        F[1] = unit * F[1]
+        bcs = heat + hold
+        options = {"pc_type": pc}
+        problem = make_problem(F, [u, T], [contact], bcs, displacement=0, petsc_options=options)
+        problem.solve()
+        assert problem.report.uncondensed == []
+        answers.append((problem.report.iterations, u.x.array, T.x.array))
+    (one, u, T), (other, w, S) = answers
+    assert abs(one - other) <= 1
+    assert np.abs(u - w).max() < 1e-9 * np.abs(u).max()
+    assert np.abs(T - S).max() < 1e-9 * np.abs(T).max()

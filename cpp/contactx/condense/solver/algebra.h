@@ -103,6 +103,9 @@ public:
   /// @brief Take over what `matrices` are now.
   virtual void update() = 0;
 
+  /// @brief Apply one cycle, x = M b.
+  virtual void cycle(std::span<const double> b, std::span<double> x) = 0;
+
   /// @brief Solve A x = b.
   /// @param[in] b Right-hand side.
   /// @param[in,out] x Start of the iterations, then what they have found.
@@ -186,6 +189,14 @@ struct Aggregates
   MatrixPtr stiffness;    ///< P^T A P
 };
 
+/// @brief Blocks of the bulk's Jacobian that concern other fields.
+struct FieldBlocks
+{
+  MatrixPtr uf; ///< rows of displacements by fields
+  MatrixPtr fu; ///< rows of fields by displacements
+  MatrixPtr ff; ///< rows of fields by fields
+};
+
 /// @brief The operations, and the bulk's matrix.
 class Algebra
 {
@@ -196,8 +207,8 @@ public:
   virtual ~Algebra() = default;
 
   /// @brief Assemble the bulk's Jacobian if the state is another than that of
-  /// the last one. Its rows are the displacements that this rank owns, with
-  /// unit rows and columns at prescribed ones.
+  /// the last one. It is meant by displacements, of which its rows are those
+  /// that this rank owns, with unit rows and columns at prescribed ones.
   virtual void update_bulk() = 0;
 
   /// @brief How often the bulk's Jacobian was assembled so far.
@@ -219,6 +230,10 @@ public:
   /// @brief Some of its rows, for nobody to change.
   /// @param[in] dofs Which owned ones, in order; the same ones every time.
   virtual MatrixPtr bulk_rows(std::span<const std::int32_t> dofs) = 0;
+
+  /// @brief What of it concerns other fields, for nobody to change; asked for
+  /// where there are such.
+  virtual FieldBlocks field_blocks() = 0;
 
   /// @brief 1 at owned displacements that are prescribed, else 0.
   virtual std::span<const std::int8_t> prescribed() = 0;

@@ -3,6 +3,7 @@
 
 #include "multigrid_solver.h"
 #include <algorithm>
+#include <cmath>
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -50,6 +51,12 @@ bool MultigridSolver::solve(std::shared_ptr<CondensedOperator> K_c,
                             std::span<const double> rhs, std::span<double> v,
                             double target, int slow)
 {
+  return solve_with(std::move(K_c),
+                    [&] { return iterate(rhs, v, target, slow); });
+}
+
+void MultigridSolver::prepare(std::shared_ptr<CondensedOperator> K_c)
+{
   _K_c = std::move(K_c);
   if (_lost > _tuning.hierarchy_cost)
     reset();
@@ -61,24 +68,40 @@ bool MultigridSolver::solve(std::shared_ptr<CondensedOperator> K_c,
     _serves = _galerkin->serves(change);
     update(change, not _serves);
   }
-  if (iterate(rhs, v, target, slow))
+}
+
+bool MultigridSolver::solve_with(std::shared_ptr<CondensedOperator> K_c,
+                                 const std::function<bool()>& iterate)
+{
+  prepare(std::move(K_c));
+  if (iterate())
     return true;
   if (_serves)
   {
     _serves = false;
     update(_K_c->contact_update(), true);
-    if (iterate(rhs, v, target, slow))
+    if (iterate())
       return true;
   }
   if (_built_at != _algebra.assemblies())
   {
     build();
     update(_K_c->contact_update(), true);
-    if (iterate(rhs, v, target, slow))
+    if (iterate())
       return true;
   }
   reset();
   return false;
+}
+
+void MultigridSolver::solve_roughly(std::span<const double> rhs,
+                                    std::span<double> v, double rtol)
+{
+  const double size = norm(_K_c->numbering().ranks(), rhs);
+  const int most = static_cast<int>(_tuning.slow_rate * -std::log(rtol));
+  _iterations
+      += _hierarchy->solve(rhs, v, _K_c->is_symmetric(), rtol * size, most)
+             .count;
 }
 
 void MultigridSolver::reset()
@@ -103,16 +126,21 @@ bool MultigridSolver::iterate(std::span<const double> rhs, std::span<double> v,
       done = _hierarchy->solve(rhs, v, symmetric, target, most);
     }
     _iterations += done.count;
-    if (_built_at == _algebra.assemblies())
-      _rate = std::max(_rate, done.count / reduction);
-    else
-      _lost += std::max(0.0, done.count - _rate * reduction);
+    count(done.count, reduction);
     if (done.converged())
       return true;
     std::ranges::fill(v, 0);
     if (not symmetric or done.end != Iterations::End::indefinite)
       return false;
   }
+}
+
+void MultigridSolver::count(int iterations, double reduction)
+{
+  if (_built_at == _algebra.assemblies())
+    _rate = std::max(_rate, iterations / reduction);
+  else
+    _lost += std::max(0.0, iterations - _rate * reduction);
 }
 
 void MultigridSolver::build()

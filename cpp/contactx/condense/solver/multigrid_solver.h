@@ -46,6 +46,38 @@ public:
              std::span<const double> rhs, std::span<double> v, double target,
              int slow);
 
+  /// @brief Make what preconditions a condensed matrix.
+  /// @param[in] K_c The condensed matrix.
+  void prepare(std::shared_ptr<CondensedOperator> K_c);
+
+  /// @brief Apply one cycle, v = M r, of the matrix prepared for.
+  void cycle(std::span<const double> r, std::span<double> v)
+  {
+    _hierarchy->cycle(r, v);
+  }
+
+  /// @brief Solve with the matrix prepared for, to a relative residual.
+  /// @param[in] rhs Right-hand side.
+  /// @param[in,out] v Start of the iterations, then what they have found.
+  /// @param[in] rtol What the residual's norm must fall below, over that of the
+  /// right-hand side.
+  void solve_roughly(std::span<const double> rhs, std::span<double> v,
+                     double rtol);
+
+  /// @brief Iterate with `cycle`: again with coarser levels, and then with a
+  /// hierarchy, of now if these were older and it did not converge.
+  /// @param[in] K_c The condensed matrix.
+  /// @param[in] iterate Iterates, and says whether that converged.
+  /// @return Whether it did at last.
+  bool solve_with(std::shared_ptr<CondensedOperator> K_c,
+                  const std::function<bool()>& iterate);
+
+  /// @brief Count iterations that `cycle` has preconditioned.
+  /// @param[in] iterations Their number.
+  /// @param[in] reduction Logarithm of what they were to reduce the residual
+  /// by.
+  void count(int iterations, double reduction);
+
   /// @brief Drop the hierarchy: two at once would be the largest part of the
   /// memory.
   void reset();

@@ -66,10 +66,13 @@ CondensedOperator::CondensedOperator(
     work->resize(n);
 }
 
-void CondensedOperator::multiply(std::span<const double> v, std::span<double> y)
+void CondensedOperator::multiply(std::span<const double> v, std::span<double> y,
+                                 const Coupling& couple)
 {
   expand(v, _z);
   multiply_bulk(_z, _w);
+  if (couple)
+    couple(_z, _w);
   combine(_w, y);
   add_law(_z, y, 1);
   for (std::size_t i = 0; i < _diagonal.size(); ++i)

@@ -8,6 +8,7 @@
 #include "../dependent_constraints.h"
 #include "chains.h"
 #include <array>
+#include <functional>
 #include <optional>
 
 namespace contactx::condense
@@ -97,8 +98,17 @@ public:
   /// @brief Whether the condensed matrix is symmetric.
   bool is_symmetric() const { return _is_symmetric; }
 
+  /// @brief Adds the forces of other fields at displacements z to those of the
+  /// bulk.
+  using Coupling
+      = std::function<void(std::span<const double> z, std::span<double> w)>;
+
   /// @brief Multiply, y = K_c v.
-  void multiply(std::span<const double> v, std::span<double> y);
+  /// @param[in] v Displacements, without what is eliminated.
+  /// @param[out] y Product.
+  /// @param[in] couple Called with all displacements and their forces.
+  void multiply(std::span<const double> v, std::span<double> y,
+                const Coupling& couple = {});
 
   /// @brief Multiply by the bulk, w = (K + S) z.
   void multiply_bulk(std::span<const double> z, std::span<double> w);
