@@ -307,14 +307,16 @@ private:
       EXPECT_LE((A - A.transpose()).norm(), 1e-12 * A.norm());
       if (std::exchange(_is_updated, false))
       {
-        // Without friction closed nodes have their normal displacement
-        // eliminated, the last one here
+        // Without friction closed nodes that are not soft have their normal
+        // displacement eliminated, the last one here
         Dense condensed = A;
         const contact::Contact& contact = *_algebra._bodies.contacts.front();
         const int g = _algebra._bodies.bulk->gdim();
         const auto slaves = contact.slaves().owned();
         for (std::size_t k = 0; k < slaves.size(); ++k)
-          if (const auto i = g * slaves[k] + g - 1; contact.nodes()->closed(k))
+          if (const auto i = g * slaves[k] + g - 1;
+              contact.nodes()->closed(k)
+              and contact.nodes()->by_multiplier[k] == 0)
             condensed(i, i) = 0;
         const Dense& Q = of(*_prolongations.front());
         const Dense wanted = Q.transpose() * condensed * Q;

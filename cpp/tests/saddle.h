@@ -60,13 +60,12 @@ struct Contact
   std::vector<std::int32_t> masters; ///< of all slave nodes alike
   int size;
   std::vector<std::int8_t> status;
-  double layer_compliance = 0;
+  std::vector<double> compliance = {}; ///< of slave nodes, or nothing
   std::vector<double> area = {}, normal = {}, by_multiplier = {};
 
   condense::Nodes nodes() const
   {
-    return {slaves, size,          status,          area,
-            normal, by_multiplier, layer_compliance};
+    return {slaves, size, status, area, normal, by_multiplier};
   }
 };
 
@@ -74,9 +73,9 @@ struct Contact
 /// nodes, then the multipliers.
 ///
 /// As contact has it, the slave side is diagonal and a node's law is
-/// D l + C u = d with D zero where it sticks or carries a scalar, zero along
-/// the normal where it slips, and the area where it is open. Along prescribed
-/// displacements the law gives the multiplier by D alone.
+/// D l + C u = d with D zero where it sticks or carries a scalar, unless it is
+/// soft, zero along the normal where it slips, and the area where it is open.
+/// Along prescribed displacements the law gives the multiplier by D alone.
 class Saddle
 {
 public:
@@ -105,6 +104,27 @@ public:
         add_node(c, s, first);
       }
     }
+  }
+
+  /// @brief Make the bulk and laws symmetric, constraints those of the forces,
+  /// three times as large and of the other sign, and leave out what else
+  /// contact adds to the stiffness.
+  void make_symmetric()
+  {
+    bulk = ((bulk + bulk.transpose()) / 2).eval();
+    contact.topLeftCorner(n, n).setZero();
+    contact.bottomLeftCorner(m, n)
+        = -3 * contact.topRightCorner(n, m).transpose();
+    std::size_t first = n;
+    for (Contact& c : contacts)
+      for (std::size_t s = 0; s < c.slaves.size(); ++s, first += c.size)
+      {
+        auto D = contact.block(first, first, c.size, c.size);
+        D = ((D + D.transpose()) / 2).eval();
+        for (int i = 0; i < c.size; ++i)
+          for (int j = 0; j < c.size; ++j)
+            c.by_multiplier[(s * c.size + i) * c.size + j] = D(i, j);
+      }
   }
 
   /// @brief Displacements and multipliers from the whole system.
@@ -137,7 +157,14 @@ public:
     for (const Contact& c : contacts)
       nodes.push_back(c.nodes());
     return condense::Condensation({offsets, columns, values}, nodes, free, gdim,
-                                  holds);
+                                  diagonal(), holds);
+  }
+
+  /// @brief Diagonal of the bulk's matrix.
+  Column diagonal() const
+  {
+    const Eigen::VectorXd values = bulk.diagonal();
+    return {values.begin(), values.end()};
   }
 
   /// @brief The same from the system without multipliers.
@@ -145,41 +172,57 @@ public:
                          const Column& b, const Column& d) const
   {
     const auto& elimination = condensation.elimination();
-    const auto I = Eigen::MatrixXd::Identity(n, n);
-    const mesh::SerialNodes nodes(static_cast<std::int32_t>(n / gdim));
-    const auto chains = condense::dependent_constraints(elimination, nodes);
-    const Eigen::MatrixXd of_right = (I - dense(chains.right, n, n)).inverse();
-    const Eigen::MatrixXd of_left = (I - dense(chains.left, n, n)).inverse();
-    const Eigen::MatrixXd left
-        = I
-          + (dense(elimination.left(), n, n) + dense(elimination.rows(), n, n))
-                * of_left;
-    const Eigen::MatrixXd right
-        = I + of_right * dense(elimination.right(), n, n);
-    const Eigen::MatrixXd law = dense(elimination.law(), n, n);
-    const Eigen::MatrixXd K = bulk + dense(condensation.stiffness(), n, n);
+    const Condensed made(*this, condensation);
     auto given = condensation.right_hand_side(d);
-    given.shift = product(of_right, given.shift);
-    Eigen::MatrixXd A = left * (K * right) + law * right;
+    given.shift = product(made.of_right, given.shift);
     Column forces = b + given.forces;
     for (std::size_t i = 0; i < given.retained.size(); ++i)
       forces[condensation.retained().dofs[i]] = given.retained[i];
-    Column rhs = product(left, forces - product(K, given.shift))
-                 - product(law, given.shift) + given.extra;
+    Column rhs = product(made.left, forces - product(made.K, given.shift))
+                 - product(made.law, given.shift) + given.extra + given.preload;
     for (const std::int32_t dof : elimination.eliminated())
-    {
-      A.row(dof) = I.row(dof);
       rhs[dof] = 0;
-    }
-    Column u = product(right, solution(A, rhs)) + given.shift;
+    Column u = product(made.right, solution(made.A, rhs)) + given.shift;
     Column multipliers = given.multipliers;
-    condensation.recover(d, product(of_left, b + given.forces - product(K, u)),
-                         u, multipliers);
+    condensation.recover(
+        d, product(made.of_left, b + given.forces - product(made.K, u)), u,
+        multipliers);
     for (const std::int32_t dof : condensation.retained().dofs)
       u[dof] = b[dof];
     u.insert(u.end(), multipliers.begin(), multipliers.end());
     return u;
   }
+
+  /// @brief The condensed matrix A, one for eliminated displacements, and what
+  /// it is made of.
+  struct Condensed
+  {
+    Condensed(const Saddle& saddle, const condense::Condensation& condensation)
+    {
+      const std::size_t n = saddle.n;
+      const auto& elimination = condensation.elimination();
+      const auto I = Eigen::MatrixXd::Identity(n, n);
+      const mesh::SerialNodes nodes(static_cast<std::int32_t>(n / saddle.gdim));
+      const auto chains = condense::dependent_constraints(elimination, nodes);
+      of_right = (I - dense(chains.right, n, n)).inverse();
+      of_left = (I - dense(chains.left, n, n)).inverse();
+      left = I
+             + (dense(elimination.left(), n, n)
+                + dense(elimination.rows(), n, n))
+                   * of_left;
+      right = I + of_right * dense(elimination.right(), n, n);
+      law = dense(elimination.law(), n, n);
+      K = saddle.bulk + dense(condensation.stiffness(), n, n);
+      A = left * (K * right) + law * right + dense(elimination.springs(), n, n);
+      for (const std::int32_t dof : elimination.eliminated())
+      {
+        A.row(dof) = I.row(dof);
+        A.col(dof) = I.col(dof);
+      }
+    }
+
+    Eigen::MatrixXd of_right, of_left, left, right, law, K, A;
+  };
 
   /// @brief A random column.
   Column column(std::size_t size)
@@ -259,6 +302,7 @@ private:
                       double area)
   {
     const int k = c.size;
+    const double compliance = c.compliance.empty() ? 0 : c.compliance[s];
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(k, k);
     if (c.status[s] == 0)
     {
@@ -268,9 +312,10 @@ private:
     }
     if (k == 1)
     {
-      D(0, 0) = area * c.layer_compliance;
+      D(0, 0) = area * compliance;
       return D;
     }
+    const bool is_soft = c.status[s] == 1 and compliance > 0;
     std::vector<int> f, p;
     for (int i = 0; i < k; ++i)
       (free[c.slaves[s] * gdim + i] ? f : p).push_back(i);
@@ -290,6 +335,11 @@ private:
           D(i, j) = area * (B[i] - along * normal[i] / square);
       }
     }
+    if (is_soft)
+      for (const int i : f)
+        for (const int j : f)
+          D(i, j)
+              = area * compliance * ((i == j ? 2 : 0) + 0.5 * random(-1, 1));
     if (p.empty())
       return D;
     Eigen::MatrixXd pp(p.size(), p.size());

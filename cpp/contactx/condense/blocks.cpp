@@ -6,6 +6,7 @@
 #include "../law/normal.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 using namespace contactx;
@@ -42,6 +43,23 @@ void contactx::condense::check(std::span<const Nodes> contacts,
                 "by_multiplier", "slave node");
     check::numbers(nodes.slaves, num_nodes, "slaves", "nodes");
   }
+}
+
+Pivot contactx::condense::pivot(const Triplets& constraint,
+                                std::span<const std::int32_t> entries,
+                                std::int32_t first,
+                                std::span<const std::int8_t> free, int gdim)
+{
+  std::array<double, 3> own{};
+  for (const std::int32_t e : entries)
+    if (const std::int32_t i = constraint.columns[e] - first;
+        i >= 0 and i < gdim)
+      own[i] += constraint.values[e];
+  Pivot found;
+  for (int i = 0; i < gdim; ++i)
+    if (free[first + i] != 0 and std::abs(own[i]) > std::abs(found.coefficient))
+      found = {first + i, own[i]};
+  return found;
 }
 
 Blocks contactx::condense::sorted(const CompressedRows& contact,

@@ -30,7 +30,6 @@ struct Nodes
   /// The law's derivative by the multiplier, a force over a traction
   /// (shape=(n, size, size))
   std::span<const double> by_multiplier;
-  double layer_compliance = 0; ///< compliance of a layer between the surfaces
 
   /// @brief Number of slave nodes.
   std::size_t count() const { return slaves.size(); }
@@ -65,6 +64,23 @@ struct Blocks
   /// Derivative of the displacements' rows by the displacements
   Triplets stiffness;
 };
+
+/// @brief A displacement and its coefficient in a constraint.
+struct Pivot
+{
+  std::int32_t dof = -1;  ///< the displacement, -1 for none
+  double coefficient = 0; ///< its coefficient
+};
+
+/// @brief The free displacement of a slave node that has the largest
+/// coefficient in a scalar constraint.
+/// @param[in] constraint Constraints, (multiplier, dof).
+/// @param[in] entries Entries of one constraint.
+/// @param[in] first First displacement of the slave node.
+/// @param[in] free 1 at displacements that are not prescribed, else 0.
+/// @param[in] gdim Geometric dimension.
+Pivot pivot(const Triplets& constraint, std::span<const std::int32_t> entries,
+            std::int32_t first, std::span<const std::int8_t> free, int gdim);
 
 /// @brief Sort a matrix into blocks; entries that are zero are left out.
 /// @param[in] contact Contact part of the Jacobian, of this rank's pairs.

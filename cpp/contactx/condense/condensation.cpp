@@ -21,7 +21,8 @@ void check_size(std::size_t size, std::size_t least, std::size_t most,
 
 /// Blocks of what fits
 Blocks checked(const CompressedRows& contact, std::span<const Nodes> contacts,
-               std::span<const std::int8_t> free, int gdim)
+               std::span<const std::int8_t> free, int gdim,
+               std::span<const double> diagonal)
 {
   condense::check(contacts, free.size() / std::max(gdim, 1), gdim);
   const std::size_t num_local = free.size();
@@ -29,6 +30,12 @@ Blocks checked(const CompressedRows& contact, std::span<const Nodes> contacts,
              "free");
   const std::size_t size = num_local + num_multipliers(contacts);
   check_size(contact.offsets.size(), size + 1, size + 1, "offsets");
+  // Slave nodes are this rank's
+  std::size_t num_slave = 0;
+  for (const Nodes& nodes : contacts)
+    for (const std::int32_t node : nodes.slaves)
+      num_slave = std::max(num_slave, (std::size_t(node) + 1) * gdim);
+  check_size(diagonal.size(), num_slave, num_local, "diagonal");
   return sorted(contact, num_local);
 }
 } // namespace
@@ -36,14 +43,12 @@ Blocks checked(const CompressedRows& contact, std::span<const Nodes> contacts,
 Condensation::Condensation(const CompressedRows& contact,
                            std::span<const Nodes> contacts,
                            std::span<const std::int8_t> free, int gdim,
-                           bool holds)
+                           std::span<const double> diagonal, bool holds)
     : _num_local(free.size()),
       _num_multipliers(condense::num_multipliers(contacts)),
-      _is_soft(std::ranges::any_of(contacts, [](const Nodes& nodes)
-                                   { return nodes.layer_compliance > 0; })),
-      _prescribed(contacts, checked(contact, contacts, free, gdim), free, gdim,
-                  holds),
-      _elimination(contacts, _prescribed, free, gdim)
+      _prescribed(contacts, checked(contact, contacts, free, gdim, diagonal),
+                  free, gdim, holds),
+      _elimination(contacts, _prescribed, free, gdim, diagonal)
 {
 }
 
@@ -59,6 +64,7 @@ Condensation::right_hand_side(std::span<const double> d) const
   _prescribed.blocks().traction.multiply(result.multipliers, result.forces, -1);
   result.shift = _elimination.shift(left);
   result.extra = _elimination.extra(left);
+  result.preload = _elimination.preload(left);
   return result;
 }
 
@@ -74,6 +80,8 @@ void Condensation::recover(std::span<const double> d,
   const auto& rows = _elimination.recovered();
   const std::size_t least = rows.empty() ? 0 : std::ranges::max(rows) + 1;
   check_size(defect.size(), least, _num_local, "defect");
-  _elimination.recover(defect, multipliers);
+  std::vector<double> left(d.begin(), d.end()), forces(_num_local), retained;
+  _prescribed.right_hand_side(left, forces, retained);
+  _elimination.recover(left, defect, u, multipliers);
   _prescribed.recover(d, u, multipliers);
 }

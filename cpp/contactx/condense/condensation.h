@@ -12,7 +12,8 @@ namespace contactx::condense
 /// With b the right-hand side of the displacements' rows, d that of the
 /// multipliers' and h = (I + right) v + shift the displacements,
 ///
-///     (I + left + rows) ((K + S) h - b - forces) + law h = extra
+///     (I + left + rows) ((K + S) h - b - forces) + law h + springs v
+///         = extra + preload
 ///
 /// gives v, see Elimination; `recover` gives the multipliers.
 class Condensation
@@ -24,6 +25,8 @@ public:
     std::vector<double> forces; ///< what is added to b (shape=(num_local))
     std::vector<double> shift;  ///< of the displacements (shape=(num_local))
     std::vector<double> extra;  ///< of the law's rows (shape=(num_local))
+    /// Forces of soft nodes, to be added over ranks (shape=(num_local))
+    std::vector<double> preload;
     /// Multipliers of open nodes, zero elsewhere (shape=(num_multipliers))
     std::vector<double> multipliers;
     std::vector<double> retained; ///< rows of retained multipliers (shape=(n))
@@ -36,18 +39,18 @@ public:
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.
+  /// @param[in] diagonal Diagonal of the bulk's matrix, which soft nodes are
+  /// compared with (shape=(num_owned)).
   /// @param[in] holds Whether multipliers without an equation of their own may
   /// stay unknowns; see Prescribed.
   /// @throws NotCondensable where a multiplier has no equation of its own.
   /// @throws std::invalid_argument if arrays do not fit.
   Condensation(const CompressedRows& contact, std::span<const Nodes> contacts,
-               std::span<const std::int8_t> free, int gdim, bool holds = false);
+               std::span<const std::int8_t> free, int gdim,
+               std::span<const double> diagonal, bool holds = false);
 
   /// @brief Number of displacements of all nodes.
   std::size_t num_local() const { return _num_local; }
-
-  /// @brief Whether a contact is soft.
-  bool is_soft() const { return _is_soft; }
 
   /// @brief Contact's part S of the stiffness, (dof, dof).
   const Triplets& stiffness() const { return _prescribed.blocks().stiffness; }
@@ -58,8 +61,7 @@ public:
   /// @brief Multipliers that stay unknowns.
   const RetainedMultipliers& retained() const { return _prescribed.retained(); }
 
-  /// @brief What soft contact, and multipliers that the law gives, have added
-  /// to it, (dof, dof).
+  /// @brief What multipliers that the law gives have added to it, (dof, dof).
   const Triplets& springs() const { return _prescribed.springs(); }
 
   /// @brief The transforms.
@@ -84,7 +86,6 @@ public:
 
 private:
   std::size_t _num_local, _num_multipliers;
-  bool _is_soft;
   Prescribed _prescribed;
   Elimination _elimination;
 };

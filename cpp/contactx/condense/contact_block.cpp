@@ -84,8 +84,7 @@ Nodes contactx::condense::nodes_of(const contact::Contact& contact)
           nodes.status,
           nodes.area,
           nodes.normal,
-          nodes.by_multiplier,
-          nodes.layer_compliance};
+          nodes.by_multiplier};
 }
 
 ContactBlock::ContactBlock(const Contacts& contacts,

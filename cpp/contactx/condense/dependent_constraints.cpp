@@ -67,15 +67,15 @@ contactx::condense::dependent_constraints(const Elimination& elimination,
                                           const mesh::NodeMap& nodes)
 {
   const int gdim = elimination.gdim();
-  const auto taken = marks(nodes, elimination.eliminated(), gdim);
+  const auto taken = marks(nodes, elimination.constrained(), gdim);
   const auto given = marks(nodes, elimination.recovered(), gdim);
   const auto joins = [](const std::vector<std::int8_t>& marks)
   {
     return [&marks](std::int32_t row, std::int32_t column, double)
     { return row != column and marks[row] != 0 and marks[column] != 0; };
   };
-  return {elimination.right().select(joins(taken)),
-          elimination.left().select(joins(given))};
+  return {elimination.rigid_right().select(joins(taken)),
+          elimination.rigid_left().select(joins(given))};
 }
 
 bool contactx::condense::is_symmetric(const Elimination& elimination,
@@ -87,12 +87,12 @@ bool contactx::condense::is_symmetric(const Elimination& elimination,
   if (is_same)
   {
     // Both entries of a slave node are on its own rank
-    const Triplets right
-        = elimination.right().select([](std::int32_t row, std::int32_t column,
-                                        double) { return row != column; });
+    const Triplets right = elimination.rigid_right().select(
+        [](std::int32_t row, std::int32_t column, double)
+        { return row != column; });
     const std::size_t size
         = static_cast<std::size_t>(nodes.num_nodes()) * elimination.gdim();
-    is_same = is_transpose(elimination.left(), right, size);
+    is_same = is_transpose(elimination.rigid_left(), right, size);
   }
   return mesh::everywhere(nodes.ranks(), is_same);
 }

@@ -17,20 +17,25 @@ std::vector<double> contactx::condense::bound(const Elimination& elimination,
   check::rows(diagonal.size(), nodes.num_owned(), gdim, "diagonal",
               "owned node");
   const Triplets& R = elimination.right();
-  std::vector<double> sums(diagonal.size(), 0);
+  std::vector<double> own(diagonal.size(), 1);
+  for (std::size_t e = 0; e < R.size(); ++e)
+    if (R.rows[e] == R.columns[e])
+      own[R.rows[e]] += R.values[e];
+  std::vector<double> sums(own.size());
+  for (std::size_t i = 0; i < own.size(); ++i)
+    sums[i] = std::abs(own[i]);
   for (std::size_t e = 0; e < R.size(); ++e)
     if (R.rows[e] != R.columns[e])
       sums[R.rows[e]] += std::abs(R.values[e]);
-  std::vector<double> more(static_cast<std::size_t>(nodes.num_nodes()) * gdim,
-                           0);
+  std::vector<double> D(static_cast<std::size_t>(nodes.num_nodes()) * gdim, 0);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    D[i] = diagonal[i] * sums[i] * std::abs(own[i]);
   for (std::size_t e = 0; e < R.size(); ++e)
     if (const std::int32_t s = R.rows[e]; s != R.columns[e])
-      more[R.columns[e]] += diagonal[s] * sums[s] * std::abs(R.values[e]);
-  nodes.reverse(more, gdim);
-  more.resize(diagonal.size());
-  for (std::size_t i = 0; i < more.size(); ++i)
-    more[i] += diagonal[i];
-  return more;
+      D[R.columns[e]] += diagonal[s] * sums[s] * std::abs(R.values[e]);
+  nodes.reverse(D, gdim);
+  D.resize(diagonal.size());
+  return D;
 }
 
 Triplets contactx::condense::elastic(const Elimination& elimination,

@@ -10,8 +10,8 @@ namespace contactx::condense
 /// @brief Diagonal with which the matrix (I + right)^T K (I + right) has no
 /// larger eigenvalue than K has with its own; all ranks must take part.
 ///
-/// With K <= lambda D_K and displacements sum_l R_sl v_l of the eliminated s,
-/// Cauchy's inequality gives D = D_K + sum_s D_s (sum_l |R_sl|) |R_s|.
+/// With K <= lambda D_K and displacements sum_l T_sl v_l, T = I + right,
+/// Cauchy's inequality gives D = sum_s D_s (sum_l |T_sl|) |T_s|.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
 /// @param[in] diagonal Diagonal of K, not negative (shape=(num_owned)).
@@ -24,7 +24,7 @@ std::vector<double> bound(const Elimination& elimination,
 /// ranks must take part.
 /// @param[in] elimination That of this rank.
 /// @param[in] nodes Nodes of this rank.
-/// @param[in] soft What soft contact adds to the stiffness, (dof, dof).
+/// @param[in] soft Springs of soft nodes, (dof, dof).
 /// @param[in] diagonal Springs of single displacements (shape=(num_owned)), or
 /// nothing.
 /// @return Entries (dof, dof).

@@ -76,6 +76,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
 {
   const std::size_t count = num_multipliers(contacts);
   _own.assign(count, 1);
+  mark_springs(contacts, free, gdim);
   // D between retained multipliers, by their places
   Triplets held_law;
   std::size_t first = 0;
@@ -92,8 +93,8 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
       bool is_concerned = false;
       for (int i = 0; i < k; ++i)
       {
-        own[i] = k == 1 ? not(nodes.layer_compliance > 0)
-                        : free[nodes.slaves[s] * gdim + i] != 0;
+        if (k > 1)
+          own[i] = free[nodes.slaves[s] * gdim + i] != 0;
         is_concerned = is_concerned or own[i] == 0;
       }
       if (not is_concerned)
@@ -148,6 +149,40 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
     take_out(count, free.size());
   if (not _retained.dofs.empty())
     hold(held_law);
+}
+
+/// Pressures of soft nodes that have no displacement of their slave node for
+/// themselves
+void Prescribed::mark_springs(std::span<const Nodes> contacts,
+                              std::span<const std::int8_t> free, int gdim)
+{
+  const Triplets& C = _blocks.constraint;
+  const Groups constraint = grouped(C.rows, _own.size());
+  std::vector<std::int8_t> taken(free.size(), 0);
+  for (const bool is_soft : {false, true})
+  {
+    std::int32_t multiplier = 0;
+    for (const Nodes& nodes : contacts)
+      for (std::size_t s = 0; s < nodes.count(); ++s, multiplier += nodes.size)
+      {
+        const std::int32_t first = nodes.slaves[s] * gdim;
+        const bool is_scalar = nodes.size == 1;
+        if (not nodes.is_closed(s)
+            or is_soft != (is_scalar and nodes.by_multiplier[s] != 0))
+          continue;
+        if (not is_scalar)
+          std::fill_n(taken.begin() + first, gdim, 1);
+        else if (const std::int32_t dof
+                 = pivot(C, constraint[multiplier], first, free, gdim).dof;
+                 not is_soft)
+        {
+          if (dof >= 0)
+            taken[dof] = 1;
+        }
+        else
+          _own[multiplier] = dof >= 0 and not std::exchange(taken[dof], 1);
+      }
+  }
 }
 
 void Prescribed::hold(const Triplets& law)

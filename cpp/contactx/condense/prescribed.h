@@ -21,9 +21,10 @@ struct RetainedMultipliers
 ///
 /// The bulk has no row that gives those along prescribed displacements, as
 /// where a plane of symmetry holds a slave node and there is no friction across
-/// it; those of soft contact are the forces of springs. With the law's
-/// derivatives D by the multipliers of a node, C by the displacements and the
-/// traction block T, and G = D_pp^-1,
+/// it; those of soft nodes whose displacements are prescribed, or given by
+/// others, are the forces of springs. With the law's derivatives D by the
+/// multipliers of a node, C by the displacements and the traction block T, and
+/// G = D_pp^-1,
 ///
 ///     l_p = G (d - C u - D_pf l_f)
 ///
@@ -97,6 +98,8 @@ public:
                std::span<double> multipliers) const;
 
 private:
+  void mark_springs(std::span<const Nodes> contacts,
+                    std::span<const std::int8_t> free, int gdim);
   void hold(const Triplets& law);
   void take_out(std::size_t num_multipliers, std::size_t num_local);
 

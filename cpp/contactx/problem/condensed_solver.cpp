@@ -154,6 +154,8 @@ std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
   for (const auto& contact : system.contacts())
     nodes.push_back(condense::nodes_of(*contact));
   std::shared_ptr<const condense::Condensation> made;
+  _algebra->update_bulk();
+  const std::vector<double> diagonal = _algebra->diagonal(*_algebra->bulk());
   try
   {
     halo.ranks().agree(
@@ -163,7 +165,7 @@ std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
                                              false,
                                              b.subspan(system.num_bulk()));
           made = std::make_shared<condense::Condensation>(
-              block.entries(), nodes, free, halo.gdim(), true);
+              block.entries(), nodes, free, halo.gdim(), diagonal, true);
         });
   }
   catch (const std::runtime_error& reason)
@@ -172,7 +174,6 @@ std::shared_ptr<CondensedOperator> CondensedSolver::condensed(Spans b)
     throw condense::NotCondensable(reason.what());
   }
   _condensation = made;
-  _algebra->update_bulk();
   return std::make_shared<CondensedOperator>(_numbering, std::move(made),
                                              springs());
 }
@@ -196,6 +197,8 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
 
   auto right = condensation.right_hand_side(constraints);
   std::vector<double> w = _numbering->reverse(std::move(right.forces));
+  const std::vector<double> preload
+      = _numbering->reverse(std::move(right.preload));
   for (std::size_t i = 0; i < n; ++i)
     w[i] += given[i];
   for (std::size_t i = 0; i < K_c->retained().dofs.size(); ++i)
@@ -211,7 +214,7 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
   K_c->combine(w, of_displacements);
   K_c->add_law(h, of_displacements, -1);
   for (std::size_t i = 0; i < n; ++i)
-    rhs[i] += right.extra[i];
+    rhs[i] += right.extra[i] + preload[i];
   for (const std::int32_t dof : K_c->eliminated())
     rhs[dof] = 0;
   if (fields)

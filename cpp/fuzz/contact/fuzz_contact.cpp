@@ -132,8 +132,10 @@ void eliminate(const std::vector<std::shared_ptr<Contact>>& contacts,
     f = in.below(4) > 0;
   try
   {
-    const condense::Condensation c(block.entries(), nodes, free, halo.gdim());
-    condense::chains(c.elimination(), halo);
+    const std::vector<double> diagonal(free.size(), 1);
+    const condense::Condensation c(block.entries(), nodes, free, halo.gdim(),
+                                   diagonal);
+    condense::dependent_constraints(c.elimination(), halo);
     const std::vector<double> d(block.size() - n, 0.5);
     auto right = c.right_hand_side(d);
     const std::vector<double> u(n, 0.25);

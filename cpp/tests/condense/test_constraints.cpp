@@ -3,6 +3,7 @@
 
 #include "saddle.h"
 #include "thread_ranks.h"
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <contactx/condense/master_springs.h>
 #include <contactx/condense/multigrid.h>
@@ -98,6 +99,7 @@ TEST(DependentConstraints, TheOtherNodeIsOfAnotherRank)
   using Counts = std::array<std::size_t, 2>;
   // Slave there or not
   EXPECT_EQ(count({{{0}, {3}, 3, {stick}}}), (Counts{18, 0}));
+  EXPECT_EQ(count({{{0}, {3}, 3, {stick}, {0.1}}}), (Counts{18, 0}));
   EXPECT_EQ(count({{{1}, {3}, 3, {stick}}}), (Counts{0, 0}));
   EXPECT_EQ(count({{{1}, {2}, 3, {stick}}, {{2}, {3}, 3, {stick}}}),
             (Counts{0, 9}));
@@ -209,45 +211,107 @@ TEST(Multigrid, TheBoundHoldsForAllDisplacements)
   EXPECT_THROW(bound(elimination, nodes, Column(1, 0)), std::invalid_argument);
 }
 
+/// Eigenvalues of a matrix with a diagonal, without some unknowns
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& A, const Column& diagonal,
+                            std::span<const std::int32_t> without)
+{
+  std::vector<int> left;
+  for (int i = 0; i < A.rows(); ++i)
+    if (std::ranges::find(without, i) == without.end())
+      left.push_back(i);
+  Eigen::VectorXd scale(left.size());
+  for (std::size_t i = 0; i < left.size(); ++i)
+    scale[i] = 1 / std::sqrt(diagonal[left[i]]);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+             scale.asDiagonal() * A(left, left) * scale.asDiagonal())
+      .eigenvalues();
+}
+
+TEST(Multigrid, SpringsAreNeverStiffForTheBulk)
+{
+  const SerialNodes nodes(8);
+  for (const int gdim : {2, 3})
+    for (const int size : {1, gdim})
+    {
+      // With the diagonal that the smoother divides by: the largest eigenvalue
+      // of the bulk, and the least one where the nodes are not soft
+      double most = 0, least = 0;
+      for (const double compliance :
+           {0., 1e-8, 1e-6, 1e-4, 1e-2, 1e-1, 1., 10., 100.})
+      {
+        const auto held = std::int8_t(size == 1 ? slip : stick);
+        std::vector<double> each(2, compliance);
+        Saddle saddle(gdim, 8, {{{0, 2}, {1, 5}, size, {held, held}, each}}, {},
+                      6);
+        saddle.make_symmetric();
+        const Condensation condensation = saddle.condensed();
+        const auto& elimination = condensation.elimination();
+        const Saddle::Condensed condensed(saddle, condensation);
+        Column D = bound(elimination, nodes, saddle.diagonal());
+        const Eigen::MatrixXd springs
+            = dense(elimination.springs(), saddle.n, saddle.n);
+        for (std::size_t i = 0; i < saddle.n; ++i)
+          D[i] += springs.row(i).cwiseAbs().sum();
+        const Eigen::VectorXd found
+            = eigenvalues(condensed.A, D, elimination.eliminated());
+        if (compliance == 0)
+        {
+          most = eigenvalues(saddle.bulk, saddle.diagonal(), {}).maxCoeff();
+          least = found.minCoeff();
+        }
+        EXPECT_EQ(elimination.is_soft(), compliance > 0);
+        EXPECT_LE((condensed.A - condensed.A.transpose()).norm(),
+                  1e-10 * condensed.A.norm());
+        EXPECT_LE(found.maxCoeff(), std::max(1.0, most) * (1 + 1e-10));
+        EXPECT_GE(found.minCoeff(), 0.5 * least) << compliance;
+      }
+    }
+}
+
 TEST(Multigrid, TheBoundAddsWhatOtherRanksHave)
 {
   // Node 5 is the other rank's, which has a slave node of its own before it and
   // before node 1
   const std::array<std::vector<std::int64_t>, 2> numbers{
       {{0, 1, 2, 3, 4, 5}, {5, 6, 1}}};
-  std::array<Saddle, 2> saddles{
-      Saddle(2, 6, {{{0, 2}, {1, 5}, 1, {slip, slip}}}, {}, 3),
-      Saddle(2, 3, {{{1}, {0, 2}, 1, {slip}}}, {}, 4)};
-  // What each adds to the unit diagonal
-  Column expected(14, 1);
-  for (const int r : {0, 1})
+  for (const double compliance : {0., 0.1})
   {
-    const Condensation condensation = saddles[r].condensed();
-    const auto count = static_cast<std::int32_t>(numbers[r].size());
-    const Column alone = bound(condensation.elimination(), SerialNodes(count),
-                               Column(2 * count, 1));
-    for (std::int32_t i = 0; i < 2 * count; ++i)
+    std::array<Saddle, 2> saddles{
+        Saddle(2, 6,
+               {{{0, 2}, {1, 5}, 1, {slip, slip}, {compliance, compliance}}},
+               {}, 3),
+        Saddle(2, 3, {{{1}, {0, 2}, 1, {slip}, {compliance}}}, {}, 4)};
+    // What each adds to the unit diagonal
+    Column expected(14, 1);
+    for (const int r : {0, 1})
     {
-      const std::int64_t node = numbers[r][i / 2];
-      expected[2 * node + i % 2] += alone[i] - 1;
-      // Both have a part in these
-      EXPECT_TRUE((node != 1 and node != 5) or alone[i] > 1);
+      const Condensation condensation = saddles[r].condensed();
+      const auto count = static_cast<std::int32_t>(numbers[r].size());
+      const Column alone = bound(condensation.elimination(), SerialNodes(count),
+                                 Column(2 * count, 1));
+      for (std::int32_t i = 0; i < 2 * count; ++i)
+      {
+        const std::int64_t node = numbers[r][i / 2];
+        expected[2 * node + i % 2] += alone[i] - 1;
+        // Both have a part in these
+        EXPECT_TRUE((node != 1 and node != 5) or alone[i] > 1);
+      }
     }
+    on_ranks(2,
+             [&](Ranks& ranks)
+             {
+               const int r = ranks.rank();
+               const std::int32_t num_owned = r == 0 ? 5 : 2;
+               const NumberedNodes nodes(ranks, numbers[r], num_owned);
+               const Condensation condensation = saddles[r].condensed();
+               const Column both = bound(condensation.elimination(), nodes,
+                                         Column(2 * num_owned, 1));
+               ASSERT_EQ(std::ssize(both), 2 * num_owned);
+               for (std::int32_t i = 0; i < 2 * num_owned; ++i)
+                 EXPECT_NEAR(both[i], expected[2 * numbers[r][i / 2] + i % 2],
+                             1e-14);
+             });
   }
-  on_ranks(2,
-           [&](Ranks& ranks)
-           {
-             const int r = ranks.rank();
-             const std::int32_t num_owned = r == 0 ? 5 : 2;
-             const NumberedNodes nodes(ranks, numbers[r], num_owned);
-             const Condensation condensation = saddles[r].condensed();
-             const Column both = bound(condensation.elimination(), nodes,
-                                       Column(2 * num_owned, 1));
-             ASSERT_EQ(std::ssize(both), 2 * num_owned);
-             for (std::int32_t i = 0; i < 2 * num_owned; ++i)
-               EXPECT_NEAR(both[i], expected[2 * numbers[r][i / 2] + i % 2],
-                           1e-14);
-           });
 }
 
 TEST(Multigrid, SpringsOfWhatIsNotEliminated)

@@ -122,6 +122,8 @@ TEST_P(Eliminated, PrescribedDisplacementsOfSlaveNodesAndMasters)
                    {{{0, 2, 3, 7}, {1, 5, 6}, gdim, {slip, stick, open, slip}}},
                    fixed, seed);
     compare(vectors);
+    // What round-off leaves of their law is no spring
+    EXPECT_FALSE(vectors.condensed().elimination().is_soft());
     Saddle scalars(gdim, 8, {{{0, 2, 3, 7}, {1, 5, 6}, 1, {2, 2, 0, 2}}}, fixed,
                    seed);
     compare(scalars);
@@ -146,18 +148,76 @@ TEST_P(Eliminated, AllDisplacementsOfASlaveNodePrescribed)
             "all displacements of a slave node are prescribed");
 }
 
-TEST_P(Eliminated, SoftContact)
+TEST_P(Eliminated, SoftNodes)
 {
-  for (unsigned seed = 0; seed < 10; ++seed)
-  {
-    Saddle saddle(gdim, 7, {{{0, 4, 2}, {1, 5, 6}, 1, {slip, open, slip}, 0.3}},
-                  {}, seed);
-    compare(saddle);
-    const Condensation condensation = saddle.condensed();
-    EXPECT_TRUE(condensation.is_soft());
-    EXPECT_GT(condensation.springs().size(), 0u);
-    EXPECT_TRUE(condensation.elimination().eliminated().empty());
-  }
+  for (const int size : {1, gdim})
+    for (unsigned seed = 0; seed < 10; ++seed)
+    {
+      const auto held = std::int8_t(size == 1 ? slip : stick);
+      Generator random(seed);
+      const auto soft = [&] { return std::pow(10, random(-8, 2)); };
+      // Nodes 4, 2 and 3 are soft, 6 is not
+      Saddle saddle(
+          gdim, 10,
+          {{{0, 4, 2, 3, 6},
+            {1, 5, 7},
+            size,
+            {open, held, held, held, held},
+            {0, soft(), soft(), soft(), 0}}},
+          seed % 2 ? along(gdim, {3}, {1}) : std::vector<std::int32_t>(), seed);
+      compare(saddle);
+      const Condensation condensation = saddle.condensed();
+      EXPECT_TRUE(condensation.elimination().is_soft());
+      EXPECT_GT(condensation.elimination().springs().size(), 0u);
+      EXPECT_EQ(condensation.elimination().eliminated().size(),
+                std::size_t(size));
+    }
+}
+
+TEST_P(Eliminated, SoftNodesFeelTheirNeighbours)
+{
+  for (const int size : {1, gdim})
+    for (unsigned seed = 0; seed < 10; ++seed)
+    {
+      const auto held = std::int8_t(size == 1 ? slip : stick);
+      Generator random(seed);
+      const auto soft = [&] { return std::pow(10, random(-8, 2)); };
+      // Slave nodes 2 and 4 are masters of the other contact, of which one is
+      // soft, too
+      Saddle saddle(
+          gdim, 9,
+          {{{0, 2, 4}, {1, 5}, size, {held, held, held}, {soft(), soft(), 0}},
+           {{3, 6}, {2, 4}, size, {held, held}, {soft(), 0}}},
+          {}, seed);
+      compare(saddle);
+      // And one slips
+      if (size > 1)
+      {
+        Saddle slips(gdim, 9,
+                     {{{0, 2, 4},
+                       {1, 5},
+                       size,
+                       {stick, stick, slip},
+                       {soft(), soft(), 0}},
+                      {{3, 6}, {2, 4}, size, {stick, slip}, {soft(), 0}}},
+                     {}, seed);
+        compare(slips);
+      }
+    }
+}
+
+TEST_P(Eliminated, SoftNodesWithoutADisplacementForThemselves)
+{
+  std::vector<int> axes{0, 1, 2};
+  axes.resize(gdim);
+  // Node 0 is prescribed; node 4 is slave of two contacts along one axis
+  Saddle saddle(gdim, 7,
+                {{{0, 4}, {1, 5}, 1, {slip, slip}, {0.3, 1e-3}},
+                 {{2, 4}, {6}, 1, {slip, slip}, {0.01, 0.2}}},
+                along(gdim, {0}, axes), 3);
+  compare(saddle);
+  EXPECT_EQ(saddle.condensed().elimination().constrained().size(), 2u);
+  EXPECT_GT(saddle.condensed().springs().size(), 0u);
 }
 
 TEST_P(Eliminated, TwoContacts)

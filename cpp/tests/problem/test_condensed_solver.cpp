@@ -118,6 +118,62 @@ TEST(CondensedSolver, SolvesAreAsRoughAsTheNextResidualAllows)
   EXPECT_NEAR(targets[1] / targets[0], 1e-3, 1e-9);
 }
 
+TEST(CondensedSolver, SoftNodesOfAnyStiffness)
+{
+  for (const auto& [friction, asked] :
+       {std::pair(0., ""), std::pair(0.3, ""), std::pair(0.3, "bodies")})
+  {
+    Pressed pressed(friction);
+    pressed.step(1);
+    pressed.algebra->asked = asked;
+    Problem& problem = pressed.bodies.problem();
+    problem.begin_step();
+    problem.settle(1e-12, 0, 10);
+    law::NodeState& nodes = *pressed.bodies.contacts.front()->nodes();
+    const std::size_t size = nodes.size();
+    int count = 0;
+    // Mixed ones, soft ones alone, then none of them
+    for (const auto& [least, most] :
+         {std::pair{-8, 2}, std::pair{1, 2}, std::pair{0, 0}})
+    {
+      SCOPED_TRACE(least);
+      Generator random(3);
+      for (std::int32_t k = 0; k < nodes.num_nodes(); ++k)
+        if (nodes.closed(k) and (size == 1 or nodes.status[k] == law::stick))
+        {
+          ++count;
+          for (std::size_t i = 0; i < size; ++i)
+            for (std::size_t j = 0; j < size; ++j)
+              nodes.by_multiplier[(k * size + i) * size + j]
+                  = most == 0
+                        ? 0
+                        : nodes.area[k] * std::pow(10, random(least, most))
+                              * ((i == j ? 2 : 0) + 0.5 * random(-1, 1));
+        }
+      const Eigen::MatrixXd J = pressed.bodies.matrix();
+      std::vector<double> b(J.rows()), x(J.rows());
+      for (std::size_t i = 0; i < b.size(); ++i)
+        b[i] = std::sin(1.0 + double(i));
+      const auto prescribed = pressed.bodies.bulk->markers();
+      for (std::size_t i = 0; i < prescribed.size(); ++i)
+        if (prescribed[i])
+          b[i] = 0;
+      pressed.solver->solve(b, x);
+      const std::vector<double> exact = solution(J, b);
+      const double scale = math::column(exact).cwiseAbs().maxCoeff();
+      for (std::size_t i = 0; i < x.size(); ++i)
+        EXPECT_NEAR(x[i], exact[i], 1e-10 * scale);
+    }
+    EXPECT_GT(count, 0);
+    const auto found = pressed.solver->statistics();
+    EXPECT_TRUE(found.direct.empty());
+    EXPECT_EQ(found.by_bodies.empty(), pressed.algebra->asked.empty());
+    EXPECT_EQ(pressed.algebra->hierarchies, 1);
+    // One for each solve: blocks of bodies have the springs, too
+    EXPECT_EQ(found.iterations, 3);
+  }
+}
+
 TEST(CondensedSolver, MultipliesByTheJacobian)
 {
   Pressed pressed(0.3);

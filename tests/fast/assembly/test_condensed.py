@@ -77,6 +77,87 @@ def compare_one_solve(problem, rng):
     assert np.abs(result - exact).max() <= 1e-9 * np.abs(exact).max()
 
 
+def soften(problem, contact, ratio):
+    """Give sticking nodes, and those without friction, springs.
+
+    Args:
+        problem: The problem.
+        contact: Its contact.
+        ratio: Stiffnesses of a node over the bulk's diagonal: normal and tangential.
+    """
+    nodes, bulk = contact.discrete.nodes, problem.assembler.bulk
+    bulk.update()
+    diagonal = np.median(bulk.diagonal())
+    laws = nodes.by_multiplier.reshape(-1, nodes.size, nodes.size)
+    for i in np.flatnonzero(nodes.closed):
+        compliance = nodes.area[i] ** 2 * nodes.c[i] / (diagonal * np.asarray(ratio()))
+        if nodes.size == 1:
+            laws[i] = compliance[0]
+        elif nodes.status[i] == 1:
+            n = nodes.normal[i]
+            along = np.outer(n, n)
+            laws[i] = compliance[0] * along + compliance[1] * (np.eye(len(n)) - along)
+
+
+SOFT_LAWS = [{}, {"tied": True}, MORTAR, {"tied": True, **MORTAR}, {"friction": 0.3, **MORTAR}]
+
+
+@covering(cell=CELLS, law=SOFT_LAWS, sliding=SLIDINGS)
+def test_one_solve_with_soft_nodes(cell, law, sliding):
+    """Springs of any stiffness, different in each node and along its tangents."""
+    problem, contact, rng = random_state(cell, law, sliding)
+    soften(problem, contact, lambda: 10 ** rng.uniform(-2, 8, 2))
+    compare_one_solve(problem, rng)
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 0.01])
+@pytest.mark.parametrize("law", SOFT_LAWS[:4])
+def test_multigrid_does_not_feel_the_stiffness_of_soft_nodes(law, stiffness):
+    """As many Krylov iterations as without springs, on masters that yield."""
+    scene = Blocks(CellType.hexahedron, n_upper=6, n_lower=5, stiffness=stiffness)
+    contact = scene.contact("small", **law)
+    problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
+    discrete, nodes = contact.discrete, contact.discrete.nodes
+    discrete.begin_step()
+    discrete.search()
+    discrete.update_gap()
+    nodes.status[:] = np.where(np.isnan(nodes.gap), 0, 1 if nodes.size > 1 else 2)
+    nodes.c[:] = 1
+    discrete.law.evaluate(nodes)
+    rng = np.random.default_rng(5)
+    system = problem.assembler.system
+    b = rng.standard_normal(system.x.getSize())
+    b[: system.num_bulk][problem.assembler.bulk.markers == 1] = 0
+    counts = []
+
+    def solve(solver):
+        result, before = np.empty_like(b), solver.statistics().iterations
+        solver.solve(b, result)
+        statistics = solver.statistics()
+        assert not statistics.direct and not statistics.by_bodies
+        counts.append(statistics.iterations - before)
+
+    def create():
+        algebra = Algebra(problem.assembler.bulk, system, "soft_")
+        return core.CondensedSolver(problem.assembler.core, algebra)
+
+    solve(create())
+    for exponent in (-2, 1, 4, 8):
+        soften(problem, contact, lambda exponent=exponent: [10.0**exponent] * 2)
+        solve(create())
+        soften(problem, contact, lambda exponent=exponent: [10.0**exponent, 0.1])
+        solve(create())
+    soften(problem, contact, lambda: 10 ** rng.uniform(-2, 8, 2))
+    solve(create())
+    # Coarser levels forget the springs
+    solver = create()
+    soften(problem, contact, lambda: [1e-2, 1e-2])
+    solve(solver)
+    discrete.law.evaluate(nodes)
+    solve(solver)
+    assert max(counts) <= 1.3 * counts[0], counts
+
+
 def both(create):
     """Solve with the direct and the condensed solver."""
     answers = []

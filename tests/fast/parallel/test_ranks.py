@@ -21,3 +21,7 @@ def test_ranks_do_not_matter(runs, case, ranks):
 
 def test_a_loop_on_forms_gives_what_the_problem_gives():
     assert float(launch(SCRIPTS / "forms_on_ranks.py", 2)) <= 1e-10
+
+
+def test_soft_nodes_have_masters_of_other_ranks():
+    assert float(launch(SCRIPTS / "soft_nodes_on_ranks.py", 2)) <= 1e-10

@@ -81,6 +81,7 @@ BlockChange DofBlock::change(const Transforms& transforms) const
   BlockChange change{_algebra.copy(*S),
                      not has_law and is_transposed(_algebra, *L, *R)};
   Matrix& added = *change.added;
+  _algebra.add(added, 1, *part(transforms.springs));
   if (has_R)
   {
     // Without the sum K + S, which would be a second K

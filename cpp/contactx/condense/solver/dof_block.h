@@ -46,7 +46,7 @@ public:
   std::vector<double> diagonal() const;
 
   /// @brief What contact adds to the block: (I + L) (K + S) (I + R) + law (I +
-  /// R) - K.
+  /// R) + springs - K.
   /// @param[in] transforms What contact does.
   BlockChange change(const Transforms& transforms) const;
 

@@ -18,14 +18,15 @@ Galerkin::Galerkin(const Numbering& numbering, MatrixPtr slave_rows,
 
 bool Galerkin::serves(const ContactUpdate& update) const
 {
-  return mesh::everywhere(_ranks,
-                          not update.springs and update.places == _eliminated);
+  return mesh::everywhere(_ranks, not update.springs and not _has_springs
+                                      and update.places == _constrained);
 }
 
 void Galerkin::update(const ContactUpdate& update,
                       std::span<const MatrixPtr> matrices)
 {
-  _eliminated = update.places;
+  _constrained = update.places;
+  _has_springs = update.springs != nullptr;
   if (matrices.empty())
     return;
   const Layout layout = _algebra.layout(*_rows);

@@ -10,7 +10,7 @@ namespace contactx::condense
 /// @brief Adds Q^T (T^T K T - K + springs) Q to the matrices of the coarser
 /// levels of a hierarchy, T = I + right.
 ///
-/// T differs from one in the rows of eliminated displacements e alone: with
+/// T differs from one in the rows of constrained displacements e alone: with
 /// X = R_e Q, Y = K_e Q and M = X^T (Y + K_ee X / 2) it is M + M^T and the
 /// springs, products of few rows, and projected further to coarser levels.
 /// Where these displacements need one another the first terms of the series of
@@ -28,8 +28,8 @@ public:
   Galerkin(const Numbering& numbering, MatrixPtr slave_rows,
            std::vector<MatrixPtr> prolongations);
 
-  /// @brief Whether the eliminated displacements are those of the last update,
-  /// and there are no springs; the same on all ranks.
+  /// @brief Whether the constrained displacements are those of the last update,
+  /// and there are no springs now or then; the same on all ranks.
   bool serves(const ContactUpdate& update) const;
 
   /// @brief Bring the matrices of the coarser levels from one state of the
@@ -46,6 +46,7 @@ private:
   // On the first coarser level: rows of the bulk's matrix at all slave nodes,
   // and what was added last
   MatrixPtr _rows, _added;
-  std::vector<std::int32_t> _eliminated;
+  std::vector<std::int32_t> _constrained;
+  bool _has_springs = false;
 };
 } // namespace contactx::condense

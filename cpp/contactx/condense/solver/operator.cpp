@@ -30,7 +30,7 @@ CondensedOperator::CondensedOperator(
 {
   const Elimination& elimination = _condensation->elimination();
   const mesh::Halo& halo = _numbering->halo();
-  _right = _numbering->rows(elimination.right(), eliminated());
+  _right = _numbering->rows(elimination.right(), constrained());
   _is_transposed = condense::is_symmetric(elimination, halo);
   _is_symmetric = _algebra.is_symmetric() and _is_transposed;
 
@@ -39,7 +39,8 @@ CondensedOperator::CondensedOperator(
   std::array counts{
       static_cast<std::int64_t>(_condensation->stiffness().size()),
       static_cast<std::int64_t>(left.size()),
-      static_cast<std::int64_t>(elimination.law().size())};
+      static_cast<std::int64_t>(elimination.law().size()),
+      static_cast<std::int64_t>(elimination.is_soft())};
   _numbering->ranks().reduce(std::span<std::int64_t>(counts),
                              mesh::Reduction::largest);
   if (counts[0] > 0)
@@ -48,9 +49,12 @@ CondensedOperator::CondensedOperator(
     _left = _numbering->matrix(left);
   if (counts[2] > 0)
     _law = _numbering->matrix(elimination.law());
+  if (counts[3] > 0)
+    _soft = _numbering->matrix(
+        elastic(elimination, halo, elimination.springs(), {}));
 
   _chains = dependent_constraints(elimination, halo);
-  _of_right = Chains::of(*_numbering, _chains.right, eliminated());
+  _of_right = Chains::of(*_numbering, _chains.right, constrained());
   if (not _is_transposed)
   {
     std::vector<std::int32_t> recovered = elimination.recovered();
@@ -60,7 +64,7 @@ CondensedOperator::CondensedOperator(
   _bulk_diagonal = _algebra.diagonal(*_K);
   for (const std::int32_t dof : eliminated())
     _diagonal.push_back(stand_in * std::abs(_bulk_diagonal[dof]));
-  _some.resize(eliminated().size());
+  _some.resize(constrained().size());
   const std::size_t n = _numbering->num_owned();
   for (auto* work : {&_z, &_w, &_work})
     work->resize(n);
@@ -75,6 +79,8 @@ void CondensedOperator::multiply(std::span<const double> v, std::span<double> y,
     couple(_z, _w);
   combine(_w, y);
   add_law(_z, y, 1);
+  if (_soft)
+    add_product(*_soft, v, y);
   for (std::size_t i = 0; i < _diagonal.size(); ++i)
     y[eliminated()[i]] = _diagonal[i] * v[eliminated()[i]];
 }
@@ -84,11 +90,7 @@ void CondensedOperator::multiply_bulk(std::span<const double> z,
 {
   _algebra.multiply(*_K, z, w);
   if (_S)
-  {
-    _algebra.multiply(*_S, z, _work);
-    for (std::size_t i = 0; i < w.size(); ++i)
-      w[i] += _work[i];
-  }
+    add_product(*_S, z, w);
   if (_springs)
     for (std::size_t i = 0; i < w.size(); ++i)
       w[i] += (*_springs)[i] * z[i];
@@ -96,12 +98,14 @@ void CondensedOperator::multiply_bulk(std::span<const double> z,
 
 void CondensedOperator::expand(std::span<const double> v, std::span<double> z)
 {
-  _algebra.multiply(*_right, v, _some);
+  std::ranges::copy(v, z.begin());
+  for (const std::int32_t dof : eliminated())
+    z[dof] = 0;
+  _algebra.multiply(*_right, z, _some);
   if (_of_right)
     _of_right->solve(_some);
-  std::ranges::copy(v, z.begin());
   for (std::size_t i = 0; i < _some.size(); ++i)
-    z[eliminated()[i]] += _some[i];
+    z[constrained()[i]] += _some[i];
 }
 
 void CondensedOperator::combine(std::span<const double> w, std::span<double> y)
@@ -109,7 +113,7 @@ void CondensedOperator::combine(std::span<const double> w, std::span<double> y)
   if (_is_transposed)
   {
     for (std::size_t i = 0; i < _some.size(); ++i)
-      _some[i] = w[eliminated()[i]];
+      _some[i] = w[constrained()[i]];
     if (_of_right)
       _of_right->solve(_some, true);
     _algebra.multiply_transposed(*_right, _some, y);
@@ -133,11 +137,16 @@ void CondensedOperator::combine(std::span<const double> w, std::span<double> y)
 void CondensedOperator::add_law(std::span<const double> z, std::span<double> y,
                                 double sign)
 {
-  if (not _law)
-    return;
-  _algebra.multiply(*_law, z, _work);
+  if (_law)
+    add_product(*_law, z, y, sign);
+}
+
+void CondensedOperator::add_product(const Matrix& A, std::span<const double> x,
+                                    std::span<double> y, double factor)
+{
+  _algebra.multiply(A, x, _work);
   for (std::size_t i = 0; i < y.size(); ++i)
-    y[i] += sign * _work[i];
+    y[i] += factor * _work[i];
 }
 
 void CondensedOperator::place(std::span<double> values)
@@ -260,6 +269,7 @@ Transforms CondensedOperator::transforms() const
     add_terms(_algebra, *made.left, *_numbering->matrix(_chains.left), true);
   made.law = _numbering->matrix(elimination.law());
   made.stiffness = _numbering->matrix(_condensation->stiffness());
+  made.springs = _numbering->matrix(elimination.springs());
   if (_springs)
     _algebra.add(*made.stiffness, 1,
                  *diagonal_matrix(_algebra, _numbering->ranks(), *_springs));
@@ -270,7 +280,7 @@ ContactUpdate CondensedOperator::contact_update()
 {
   ContactUpdate update;
   for (std::size_t i = 0, k = 0; i < slave_dofs().size(); ++i)
-    if (k < eliminated().size() and slave_dofs()[i] == eliminated()[k])
+    if (k < constrained().size() and slave_dofs()[i] == constrained()[k])
     {
       update.places.push_back(static_cast<std::int32_t>(i));
       ++k;
@@ -282,14 +292,18 @@ ContactUpdate CondensedOperator::contact_update()
   update.right = _right;
   update.chains = _of_right ? &_of_right->C() : nullptr;
   update.block
-      = _algebra.submatrix(*rows, chosen, _numbering->numbers(eliminated()));
+      = _algebra.submatrix(*rows, chosen, _numbering->numbers(constrained()));
   // The same on all ranks
-  if (_springs or _condensation->is_soft())
-    update.springs = _numbering->matrix(elastic(
-        _condensation->elimination(), _numbering->halo(),
-        _condensation->is_soft() ? _condensation->springs() : Triplets(),
-        _springs ? std::span<const double>(*_springs)
-                 : std::span<const double>()));
+  if (_springs or _soft)
+  {
+    Triplets soft = _condensation->elimination().springs();
+    if (_soft)
+      soft.join(_condensation->springs());
+    update.springs = _numbering->matrix(
+        elastic(_condensation->elimination(), _numbering->halo(), soft,
+                _springs ? std::span<const double>(*_springs)
+                         : std::span<const double>()));
+  }
   update.bound = bound();
   return update;
 }
@@ -300,12 +314,13 @@ std::vector<double> CondensedOperator::bound()
   for (double& d : D)
     d = std::abs(d);
   D = condense::bound(_condensation->elimination(), _numbering->halo(), D);
-  if (_S)
-  {
-    const std::vector<double> sums = _algebra.absolute_sums(*_S);
-    for (std::size_t i = 0; i < D.size(); ++i)
-      D[i] += sums[i];
-  }
+  for (const MatrixPtr& added : {_S, _soft})
+    if (added)
+    {
+      const std::vector<double> sums = _algebra.absolute_sums(*added);
+      for (std::size_t i = 0; i < D.size(); ++i)
+        D[i] += sums[i];
+    }
   if (_springs)
     for (std::size_t i = 0; i < D.size(); ++i)
       D[i] += (*_springs)[i];

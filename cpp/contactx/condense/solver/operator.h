@@ -21,10 +21,11 @@ struct Transforms
   MatrixPtr right;     ///< eliminated displacements by the others
   MatrixPtr left;      ///< rows that take over others
   MatrixPtr law;       ///< rows of the law
-  MatrixPtr stiffness; ///< contact's part of the stiffness, springs among them
+  MatrixPtr stiffness; ///< contact's part of the stiffness
+  MatrixPtr springs;   ///< springs of soft nodes
 };
 
-/// @brief What contact changes in the bulk's matrix K, by the eliminated
+/// @brief What contact changes in the bulk's matrix K, by the constrained
 /// displacements e in order, without what friction adds.
 struct ContactUpdate
 {
@@ -35,7 +36,7 @@ struct ContactUpdate
   /// What they need of one another, (k, k); null where they do not
   const Matrix* chains = nullptr;
   MatrixPtr block;   ///< block K_ee, (k, k)
-  MatrixPtr springs; ///< springs elsewhere, (num_dofs, num_dofs), or null
+  MatrixPtr springs; ///< springs, (num_dofs, num_dofs), or null
   /// Diagonal with which the eigenvalues stay those of the bulk
   /// (shape=(num_owned))
   std::vector<double> bound;
@@ -48,8 +49,8 @@ struct SoftAndStiff
   std::vector<std::int32_t> stiff; ///< those of stiff ones
 };
 
-/// @brief K_c = (I + left) (K + S) (I + right) + law (I + right), with little
-/// on the diagonal for what is eliminated.
+/// @brief K_c = (I + left) (K + S) (I + right) + law (I + right) + springs,
+/// with little on the diagonal for what is eliminated.
 ///
 /// Where eliminations need one another (I - C_r)^-1 right and left (I -
 /// C_l)^-1 take the place of right and left, see Elimination. It is applied as
@@ -80,6 +81,12 @@ public:
   const std::vector<std::int32_t>& eliminated() const
   {
     return _condensation->elimination().eliminated();
+  }
+
+  /// @brief The same and those of soft nodes, in order.
+  const std::vector<std::int32_t>& constrained() const
+  {
+    return _condensation->elimination().constrained();
   }
 
   /// @brief Displacements of all slave nodes, in order.
@@ -113,7 +120,8 @@ public:
   /// @brief Multiply by the bulk, w = (K + S) z.
   void multiply_bulk(std::span<const double> z, std::span<double> w);
 
-  /// @brief Give all displacements, z = (I + right) v.
+  /// @brief Give all displacements, z = (I + right) v, whatever v has for
+  /// eliminated ones.
   void expand(std::span<const double> v, std::span<double> z);
 
   /// @brief Combine rows, y = (I + left) w, zero in the eliminated ones.
@@ -122,7 +130,7 @@ public:
   /// @brief Add the law's rows, y += sign law z.
   void add_law(std::span<const double> z, std::span<double> y, double sign);
 
-  /// @brief What of eliminated displacements the constraints' right-hand side
+  /// @brief What of constrained displacements the constraints' right-hand side
   /// gives.
   /// @param[in,out] values The same where none needs another one
   /// (shape=(num_owned)).
@@ -177,6 +185,8 @@ public:
   ContactUpdate contact_update();
 
 private:
+  void add_product(const Matrix& A, std::span<const double> x,
+                   std::span<double> y, double factor = 1);
   std::span<const double> free_diagonal();
   std::vector<double> bound();
 
@@ -184,9 +194,10 @@ private:
   Algebra& _algebra;
   std::shared_ptr<const Condensation> _condensation;
   Springs _springs;
-  MatrixPtr _K;              // the bulk's
-  MatrixPtr _right;          // rows of the eliminated displacements alone
-  MatrixPtr _S, _left, _law; // null where they have no entries on any rank
+  MatrixPtr _K;     // the bulk's
+  MatrixPtr _right; // rows of the constrained displacements alone
+  // Null where they have no entries on any rank
+  MatrixPtr _S, _left, _law, _soft;
   // Whether left is the transpose of right: it is not made then
   bool _is_transposed, _is_symmetric;
   DependentConstraints _chains;
