@@ -361,14 +361,10 @@ void contactx_bindings::algebra(py::module_& m)
       .def_readonly("direct", &CondensedSolver::Statistics::direct)
       .def_readonly("seconds", &CondensedSolver::Statistics::seconds);
   py::class_<Tuning>(m, "Tuning", "Numbers that cost or save time alone")
-      .def_readwrite("hierarchy_cost", &Tuning::hierarchy_cost)
-      .def_readwrite("block_cost", &Tuning::block_cost)
-      .def_readwrite("system_cost", &Tuning::system_cost)
+      .def_readwrite("renewal_cost", &Tuning::renewal_cost)
       .def_readwrite("slow_rate", &Tuning::slow_rate)
-      .def_readwrite("slow_rate_of_mixed", &Tuning::slow_rate_of_mixed)
-      .def_readwrite("max_spring_iterations", &Tuning::max_spring_iterations)
-      .def_readwrite("max_change_of_soft", &Tuning::max_change_of_soft)
-      .def_readwrite("max_change_of_stiff", &Tuning::max_change_of_stiff)
+      .def_readwrite("max_iterations", &Tuning::max_iterations)
+      .def_readwrite("max_change", &Tuning::max_change)
       .def_readwrite("short_wave_exponent", &Tuning::short_wave_exponent)
       .def_readwrite("roughness", &Tuning::roughness);
   py::class_<CondensedSolver>(

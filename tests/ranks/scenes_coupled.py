@@ -116,7 +116,7 @@ def by_bodies_alike() -> Iterator[cx.ContactProblem]:
 
 def by_bodies_coarse_model() -> Iterator[cx.ContactProblem]:
     """A coarse model stands for the soft body."""
-    with tuned(max_spring_iterations=0):
+    with tuned(max_iterations=0):
         yield from _dragged_by_bodies(1e3, friction=0.3)
 
 

@@ -184,7 +184,7 @@ SKIPS = {
     ),
     "bulk Jacobian once": Skip("assembled when u changes", replaced=_jacobian_each_time),
     "hierarchies kept": Skip(
-        "one for each solve", "hierarchy", replaced=partial(tuned, hierarchy_cost=-1)
+        "one for each solve", "hierarchy", replaced=partial(tuned, renewal_cost=-1)
     ),
     "matrix's pattern kept": Skip("a new one each time", on=DIRECT, replaced=_pattern_each_time),
     "rough early solves": Skip(

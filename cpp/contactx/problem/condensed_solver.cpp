@@ -289,9 +289,7 @@ bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c,
     // Where bodies can be told apart the other solver is fast: one slow solve
     // tells enough
     const bool is_mixed = _soft_stiff.tells_apart(*K_c);
-    if (_multigrid.solve(K_c, rhs, v, target,
-                         is_mixed ? tuning.slow_rate_of_mixed
-                                  : tuning.slow_rate))
+    if (_multigrid.solve(K_c, rhs, v, target))
       return true;
     _failures.multigrid += is_mixed ? max_failures : 1;
   }

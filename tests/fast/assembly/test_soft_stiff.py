@@ -99,7 +99,7 @@ def with_model(monkeypatch):
     monkeypatch.setattr(
         Algebra, "aggregate", lambda *args: made.append(aggregate(*args)) or made[-1]
     )
-    with tuned(max_spring_iterations=0):
+    with tuned(max_iterations=0):
         yield made
 
 

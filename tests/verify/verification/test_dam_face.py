@@ -97,17 +97,17 @@ def count_factorisations(dam):
 
 def test_factors_serve_the_longer_the_larger_the_change_that_they_may_have(dam):
     """Were they never dear."""
-    with tuned(block_cost=10**6):
+    with tuned(renewal_cost=10**6):
         many = count_factorisations(dam)
-    with tuned(block_cost=10**6, max_change_of_stiff=15.0):
+    with tuned(renewal_cost=10**6, max_change=15.0):
         assert count_factorisations(dam) < many
 
 
 def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam):
     """However large the change for which they are to serve."""
-    with tuned(max_change_of_stiff=1e9):
+    with tuned(max_change=1e9):
         few = count_factorisations(dam)
-    with tuned(max_change_of_stiff=1e9, block_cost=1):
+    with tuned(max_change=1e9, renewal_cost=1):
         assert count_factorisations(dam) > few
 
 
@@ -137,7 +137,7 @@ def test_springs_lie_between_those_for_long_waves_and_for_short_ones(
 
 def test_a_coarse_model_takes_fewer_iterations(with_springs):
     """What it is for where springs take too many."""
-    with tuned(max_spring_iterations=0):
+    with tuned(max_iterations=0):
         assert count_iterations() <= 0.8 * with_springs
 
 
@@ -295,5 +295,5 @@ def sheet_iterations(length):
 
 def test_iterations_with_the_coarse_model_hardly_grow():
     """Over eight times the length, as from 5 to 40 slabs of a dam."""
-    with tuned(max_spring_iterations=0):
+    with tuned(max_iterations=0):
         assert sheet_iterations(64) <= 1.5 * sheet_iterations(8)

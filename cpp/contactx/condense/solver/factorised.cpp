@@ -22,11 +22,11 @@ void FactorisedSolver::solve(std::span<const double> b, std::span<double> x,
     const Timing timing(_algebra, "Jacobian");
     _solver->assemble(springs);
   }
-  if (_has_factors and _lost <= _tuning.system_cost)
+  if (_has_factors and _lost <= _tuning.renewal_cost)
   {
     const Timing timing(_algebra, "old factors");
     if (iterate(b, x, target,
-                is_last ? rounding_iterations : _tuning.system_cost))
+                is_last ? rounding_iterations : _tuning.renewal_cost))
       return;
   }
   const Timing timing(_algebra, "factorisation");
@@ -35,7 +35,7 @@ void FactorisedSolver::solve(std::span<const double> b, std::span<double> x,
   if (_has_factors)
   {
     _lost = 0;
-    iterate(b, x, target, _tuning.system_cost);
+    iterate(b, x, target, _tuning.renewal_cost);
   }
   else
     std::ranges::fill(x, std::numeric_limits<double>::infinity());

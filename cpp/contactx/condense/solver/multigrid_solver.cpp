@@ -49,16 +49,15 @@ contactx::condense::rigid_modes(mesh::Ranks& ranks, std::span<const double> x,
 
 bool MultigridSolver::solve(std::shared_ptr<CondensedOperator> K_c,
                             std::span<const double> rhs, std::span<double> v,
-                            double target, int slow)
+                            double target)
 {
-  return solve_with(std::move(K_c),
-                    [&] { return iterate(rhs, v, target, slow); });
+  return solve_with(std::move(K_c), [&] { return iterate(rhs, v, target); });
 }
 
 void MultigridSolver::prepare(std::shared_ptr<CondensedOperator> K_c)
 {
   _K_c = std::move(K_c);
-  if (_lost > _tuning.hierarchy_cost)
+  if (_lost > _tuning.renewal_cost)
     reset();
   if (not _hierarchy)
     build();
@@ -112,10 +111,10 @@ void MultigridSolver::reset()
 }
 
 bool MultigridSolver::iterate(std::span<const double> rhs, std::span<double> v,
-                              double target, int slow)
+                              double target)
 {
   const double reduction = _K_c->reduction(rhs, v, target);
-  const int most = 20 + static_cast<int>(slow * reduction);
+  const int most = 20 + static_cast<int>(_tuning.slow_rate * reduction);
   // Pressures on turning normals and bodies without support may leave a matrix
   // indefinite
   for (bool symmetric = _K_c->is_symmetric();; symmetric = false)

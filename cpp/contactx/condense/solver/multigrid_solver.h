@@ -39,12 +39,9 @@ public:
   /// @param[in] rhs Right-hand side.
   /// @param[in,out] v Start of the iterations, then the solution.
   /// @param[in] target What the norm of the residual must fall below.
-  /// @param[in] slow Krylov iterations for a reduction by e from which on
-  /// another solver is faster.
   /// @return Whether the iterations converged.
   bool solve(std::shared_ptr<CondensedOperator> K_c,
-             std::span<const double> rhs, std::span<double> v, double target,
-             int slow);
+             std::span<const double> rhs, std::span<double> v, double target);
 
   /// @brief Make what preconditions a condensed matrix.
   /// @param[in] K_c The condensed matrix.
@@ -92,8 +89,7 @@ public:
   int hierarchies() const { return _hierarchies; }
 
 private:
-  bool iterate(std::span<const double> rhs, std::span<double> v, double target,
-               int slow);
+  bool iterate(std::span<const double> rhs, std::span<double> v, double target);
   void build();
   void update(const ContactUpdate& change, bool coarse);
 

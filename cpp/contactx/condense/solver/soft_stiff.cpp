@@ -10,8 +10,8 @@ using namespace contactx::condense;
 
 namespace
 {
-// Krylov iterations after which a solve is given up
-constexpr int max_iterations = 120;
+// Krylov vectors, and iterations after which a solve is given up
+constexpr int restart = 120;
 // Difference of a block, as in Tuning, below which it counts as the same: one
 // node that slips where it stuck makes more, and costs iterations
 constexpr double equal_change = 1e-6;
@@ -155,12 +155,11 @@ bool SoftStiffSolver::iterate(std::span<const double> rhs, std::span<double> v,
     }
     return std::nullopt;
   };
+  const int most = _stiff and not _model ? _tuning.max_iterations : restart;
   Iterations done;
   {
     const Timing timing(_algebra, "Krylov");
-    done = _gmres->solve(rhs, v, test,
-                         _stiff and not _model ? _tuning.max_spring_iterations
-                                               : max_iterations);
+    done = _gmres->solve(rhs, v, test, most);
   }
   _iterations += done.count;
   if (done.converged())
@@ -198,11 +197,11 @@ void SoftStiffSolver::update(std::optional<double> reduction)
       change.added,
       [&] { return part.with(*change.added, _K_c->eliminated()); },
       change.is_symmetric and _algebra.is_symmetric(), part.group(),
-      keeps ? _tuning.max_change_of_soft : 0);
+      keeps ? _tuning.max_change / *reduction : 0);
   if (_stiff)
     _factorisations += update_stiff(
-        *transforms, keeps ? _tuning.max_change_of_stiff / *reduction : 0);
-  _renewal = _tuning.block_cost * num_old();
+        *transforms, keeps ? _tuning.max_change / *reduction : 0);
+  _renewal = _tuning.renewal_cost * num_old();
   if (_renewal == 0)
     _lost = 0;
   _updated_for = _K_c;
@@ -211,7 +210,7 @@ void SoftStiffSolver::update(std::optional<double> reduction)
       _work.size(), [this](std::span<const double> x, std::span<double> y)
       { _K_c->multiply(x, y); },
       [this](std::span<const double> r, std::span<double> z)
-      { precondition(r, z); }, max_iterations);
+      { precondition(r, z); }, restart);
 }
 
 bool SoftStiffSolver::update_stiff(const Transforms& transforms,
