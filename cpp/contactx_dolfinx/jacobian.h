@@ -51,21 +51,15 @@ public:
                  "PetscObjectGetId");
     const bool same
         = id == _matrix and all.rows == _rows and all.columns == _columns;
-    if (not contactx::mesh::everywhere(_system->halo()->ranks(), same))
-    {
-      _matrix = id;
-      _rows = std::move(all.rows);
-      _columns = std::move(all.columns);
-      // PETSc adds entries of one place, and brings those of other ranks' rows
-      // there; it writes into what it is given
-      std::vector<PetscInt> i(_rows.begin(), _rows.end()),
-          j(_columns.begin(), _columns.end());
-      petsc::check(MatSetPreallocationCOO(A, static_cast<PetscCount>(i.size()),
-                                          i.data(), j.data()),
-                   "MatSetPreallocationCOO");
-    }
-    petsc::check(MatSetValuesCOO(A, all.values.data(), INSERT_VALUES),
-                 "MatSetValuesCOO");
+    if (contactx::mesh::everywhere(_system->halo()->ranks(), same))
+      petsc::check(MatZeroEntries(A), "MatZeroEntries");
+    else
+      petsc::check(MatResetHash(A), "MatResetHash");
+    set(A, all);
+    _matrix = id;
+    _rows = std::move(all.rows);
+    _columns = std::move(all.columns);
+
     finish(A, *_system, springs);
   }
 
@@ -266,6 +260,25 @@ private:
     append(of.by_displacement, places);
     append(of.by_multiplier, places.subspan(multiplier));
     return entries;
+  }
+
+  /// Adds entries to a matrix, those of one row that follow one another
+  /// together.
+  static void set(::Mat A, const contactx::condense::Entries& all)
+  {
+    const std::vector<PetscInt> columns(all.columns.begin(), all.columns.end());
+    for (std::size_t first = 0, end = 0; first < all.rows.size(); first = end)
+    {
+      while (end < all.rows.size() and all.rows[end] == all.rows[first])
+        ++end;
+      const auto row = static_cast<PetscInt>(all.rows[first]);
+      petsc::check(MatSetValues(A, 1, &row, static_cast<PetscInt>(end - first),
+                                &columns[first], &all.values[first],
+                                ADD_VALUES),
+                   "MatSetValues");
+    }
+    petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+    petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
   }
 
   static void add(contactx::condense::Entries& all,
