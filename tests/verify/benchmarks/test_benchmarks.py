@@ -23,6 +23,7 @@ import bench_skips
 import bench_solvers
 import bench_spheres
 import bench_steps
+import bench_tuning
 import numpy as np
 import pytest
 import runner
@@ -163,9 +164,15 @@ def test_locking():
 
 def test_solvers(monkeypatch):
     monkeypatch.setattr(bench_solvers, "RUNS", 1)
-    rows = bench_solvers.main(["2"], sizes=[6])
-    assert [row["friction"] for row in rows] == [0.0, 0.3]
+    rows = bench_solvers.main(["2"], sizes=[6]) + bench_solvers.main(["mixed-2"], sizes=[6])
+    assert [row["friction"] for row in rows] == [0.0, 0.3, 0.0, 0.3]
     assert all(row["ratio"] > 0 for row in rows)
+
+
+def test_tuning():
+    rows = bench_tuning.main(["renewal_cost"], scenes=["rubber"], most=1)
+    usual, other = (row["hierarchies"] for row in rows)
+    assert usual < other
 
 
 def test_limit(monkeypatch):
