@@ -11,6 +11,7 @@ from contactx._host.algebra import Algebra
 from dolfinx.mesh import CellType
 
 from scenes import Blocks
+from scenes.closed import close_all
 from story import METHODS
 
 COMM = MPI.COMM_WORLD
@@ -27,13 +28,7 @@ def residual(law):
     scene = Blocks(CellType.hexahedron, n_upper=4, n_lower=3)
     contact = scene.contact("small", **law)
     problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
-    discrete, nodes = contact.discrete, contact.discrete.nodes
-    discrete.begin_step()
-    discrete.search()
-    discrete.update_gap()
-    nodes.status[:] = np.where(np.isnan(nodes.gap), 0, 1 if nodes.size > 1 else 2)
-    nodes.c[:] = 1
-    discrete.law.evaluate(nodes)
+    nodes = close_all(contact)
     rng = np.random.default_rng(COMM.rank)
     laws = nodes.by_multiplier.reshape(-1, nodes.size, nodes.size)
     for i in np.flatnonzero(nodes.closed):
