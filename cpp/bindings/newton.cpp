@@ -93,8 +93,8 @@ void contactx_bindings::newton(py::module_& m)
                              py::return_value_policy::reference_internal)
       .def_property_readonly("version", &Loop::version)
       .def(
-          "softens", [](Loop& self, const Array<double>& dx)
-          { return self.softens(view(dx)); }, py::arg("dx"))
+          "corrects", [](Loop& self, const Array<double>& dx)
+          { return self.corrects(view(dx)); }, py::arg("dx"))
       .def(
           "limit",
           [](Loop& self, const Array<double>& dx,
@@ -104,10 +104,10 @@ void contactx_bindings::newton(py::module_& m)
       .def(
           "size_of", [](const Loop& self, const Array<double>& dx)
           { return self.size_of(view(dx)); }, py::arg("dx"))
+      .def("bar_path", &Loop::bar_path)
       .def("changing", &Loop::changing);
 
   py::class_<ActiveSet>(m, "ActiveSet", "Pairs and status of all contacts")
-      .def_property_readonly("is_soft", &ActiveSet::is_soft)
       .def_property_readonly("cycles", &ActiveSet::cycles);
 
   py::class_<StepLength>(m, "StepLength", "How much of a step is taken")

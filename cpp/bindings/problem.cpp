@@ -101,7 +101,7 @@ Attributes:
       .def_readonly("frozen_gap", &Report::frozen_gap)
       .def_readonly("slip", &Report::slip)
       .def_readonly("dissipation", &Report::dissipation)
-      .def_readonly("soft", &Report::soft)
+      .def_readonly("interior", &Report::interior)
       .def_readonly("limited", &Report::limited)
       .def_readonly("shortened", &Report::shortened)
       .def_readonly("cycles", &Report::cycles)

@@ -352,8 +352,9 @@ public:
 
   /// @brief Part of a step that may be taken.
   ///
-  /// No cell may turn inside out. Zero means that contact becomes soft before
-  /// the next solve, where a step would open many nodes of slender bodies.
+  /// No cell may turn inside out. Zero means that the step was the affine one
+  /// of an interior point: the next residual is that of its corrector, by the
+  /// same Jacobian.
   /// @param[in] dx Increment of the unknowns.
   /// @return Part of it, at most 1.
   double limit(::Vec dx)

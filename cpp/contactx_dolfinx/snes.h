@@ -139,7 +139,7 @@ private:
   }
 
   /// Shortens a step, which is taken off the iterate.
-  static PetscErrorCode shorten(::SNESLineSearch, ::Vec, ::Vec step,
+  static PetscErrorCode shorten(::SNESLineSearch, ::Vec x, ::Vec step,
                                 PetscBool* is_changed, void* context)
   {
     auto& self = *static_cast<SNESLoop*>(context);
@@ -147,6 +147,14 @@ private:
     self.keep(
         [&]
         {
+          if (self._assembler->problem().loop().corrects(
+                  petsc::ConstValues(step).span()))
+          {
+            ::KSP ksp = nullptr;
+            self._assembler->residual(x, self._b.get());
+            petsc::check(SNESGetKSP(self._snes, &ksp), "SNESGetKSP");
+            petsc::check(KSPSolve(ksp, self._b.get(), step), "KSPSolve");
+          }
           petsc::check(VecScale(step, -1), "VecScale");
           const double part = self._assembler->limit(step);
           petsc::check(VecScale(step, -part), "VecScale");

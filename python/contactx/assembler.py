@@ -444,10 +444,10 @@ class ContactAssembler:
     def limit(self, dx: PETSc.Vec) -> float:
         """Return the part of a step that may be taken.
 
-        It keeps each cell from turning inside out. It is zero where the step would open many nodes
-        of slender bodies and contact becomes soft before the next solve: ``update`` by this part
-        leaves the iterate as it is, then call ``settle`` again. Bodies that pass through each other
-        are found by the audit, once the step has converged.
+        It keeps each cell from turning inside out. It is zero where the step is the affine one of
+        an interior point, whose corrector is solved for next, by the same Jacobian: ``update`` by
+        this part leaves the iterate as it is, then call ``settle`` again. Bodies that pass through
+        each other are found by the audit, once the step has converged.
 
         Args:
             dx: Increment of the unknowns, in the layout of ``create_vector``.

@@ -27,7 +27,7 @@ _OF_CORE = (
     "frozen_gap",
     "slip",
     "dissipation",
-    "soft",
+    "interior",
     "limited",
     "shortened",
     "cycles",
@@ -148,7 +148,7 @@ class Report:
         by_bodies: Why condensed solves had blocks of soft and stiff bodies in place of multigrid;
             an entry for each solve.
         uncondensed: Why solves were not condensed; an entry for each solve.
-        soft: Linear solves on the path from soft to hard contact.
+        interior: Iterates of the interior point, each of two linear solves.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
         shortened: Newton steps that were damped.
         cycles: How often the active set cycled and steps were shortened.
@@ -185,7 +185,7 @@ class Report:
     factorisations: int = 0
     by_bodies: list[str] = field(default_factory=list)
     uncondensed: list[str] = field(default_factory=list)
-    soft: int = 0
+    interior: int = 0
     limited: int = 0
     shortened: int = 0
     cycles: int = 0
@@ -290,7 +290,7 @@ class Report:
                 f"solved directly {_counted(self.uncondensed.count(reason), 'time')}: {reason}"
             )
         acted = [
-            f"{self.soft} solves with soft contact" if self.soft else "",
+            f"{self.interior} iterates of an interior point" if self.interior else "",
             f"{self.limited} steps shortened to keep cells from turning inside out"
             if self.limited
             else "",

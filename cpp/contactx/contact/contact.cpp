@@ -599,6 +599,75 @@ Triplets Contact::block(std::string_view term,
   return all;
 }
 
+Contact::Change Contact::change(std::span<const double> displacement,
+                                bool with_normals) const
+{
+  const auto now = _halo->now();
+  const std::size_t n = _nodes->num_nodes(), size = _nodes->size();
+  const int g = gdim();
+  std::array<std::vector<double>, 5> padded;
+  // Derivatives of what is asked for
+  const auto product
+      = [&](std::vector<double>& by_gap, std::vector<double>& by_slip,
+            std::vector<double>& by_normal)
+  {
+    if (_nodes->mean)
+      _nodes->mean->chain(_nodes->normal, by_slip, by_normal);
+    std::swap(by_gap, _nodes->by_gap);
+    std::swap(by_slip, _nodes->by_slip);
+    std::swap(by_normal, _nodes->by_normal);
+    const kernel::NodalArrays read = arrays(now->u, padded);
+    std::vector<double> sum(n * size);
+    for (const auto& pairs : _pairs)
+      kernel::for_each_pair(kernel_law(), name_of(kinematics()), "constraint",
+                            *pairs, read, g, {},
+                            [&](std::span<const std::int32_t> rows,
+                                std::span<const std::int32_t> columns,
+                                std::span<const double> block)
+                            {
+                              const double* value = block.data();
+                              for (const std::int32_t row : rows)
+                                for (std::size_t k = 0; k < size; ++k)
+                                  for (const std::int32_t column : columns)
+                                    for (int l = 0; l < g; ++l, ++value)
+                                      if (std::size_t(row) < n)
+                                        sum[size * row + k]
+                                            += *value
+                                               * displacement[g * column + l];
+                            });
+    std::swap(by_gap, _nodes->by_gap);
+    std::swap(by_slip, _nodes->by_slip);
+    std::swap(by_normal, _nodes->by_normal);
+    return sum;
+  };
+  const std::size_t square = _nodes->is_vector() ? n * g * g : 0;
+  std::vector<double> by_gap(n * size), by_slip(square), by_normal(square);
+  if (not _nodes->is_vector())
+  {
+    std::ranges::fill(by_gap, 1);
+    return {product(by_gap, by_slip, by_normal), {}};
+  }
+  by_gap = _nodes->normal;
+  for (std::size_t i = 0; i < square; i += g * g)
+    for (int k = 0; k < g; ++k)
+      by_slip[i + k * (g + 1)] = 1;
+  // Derivatives by slip and mean normal are chained in place
+  const std::vector<double> along = by_slip;
+  Change found{product(by_gap, by_slip, by_normal), {}};
+  if (not with_normals)
+    return found;
+  found.normal.assign(n * g, 0);
+  if (kinematics() == Sliding::small)
+    return found;
+  // Kernels leave out nodes whose derivatives by gap and slip are zero
+  by_slip = along;
+  by_normal = along;
+  found.normal = product(by_gap, by_slip, by_normal);
+  for (std::size_t k = 0; k < found.normal.size(); ++k)
+    found.normal[k] -= found.movement[k];
+  return found;
+}
+
 void Contact::for_each_pair(std::string_view term,
                             std::span<const std::int8_t> which,
                             const kernel::UsePair& use) const

@@ -244,6 +244,20 @@ public:
   Triplets block(std::string_view term,
                  std::span<const std::int8_t> which = {}) const;
 
+  /// @brief What displacements change in first order at slave nodes.
+  struct Change
+  {
+    /// Gap; with normals, the movement against the master (shape=(n, size))
+    std::vector<double> movement;
+    std::vector<double> normal; ///< normals; none of scalars (shape=(n, gdim))
+  };
+
+  /// @brief Find what displacements change in first order.
+  /// @param[in] displacement Displacements of all nodes (shape=(num_nodes,
+  /// gdim)).
+  /// @param[in] with_normals Whether normals are asked for, too.
+  Change change(std::span<const double> displacement, bool with_normals) const;
+
   /// @brief Tabulate a matrix term pair by pair.
   /// @param[in] term "stiffness", "traction" or "constraint".
   /// @param[in] which 1 at slave nodes whose pairs are taken (shape=(n)); empty

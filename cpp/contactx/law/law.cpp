@@ -112,11 +112,12 @@ std::int32_t Frictionless::set_status(NodeState& nodes, mesh::Ranks&) const
 void Frictionless::evaluate(NodeState& nodes) const
 {
   check_multipliers(*this, nodes);
-  if (not(nodes.layer_compliance >= 0))
-    throw std::invalid_argument("softness must not be negative");
-  normal_complementarity(
-      {nodes.multiplier, nodes.gap, nodes.c, nodes.layer_compliance},
-      nodes.area, nodes.status, nodes.value, nodes.by_multiplier, nodes.by_gap);
+  if (nodes.interior)
+    interior_complementarity(nodes);
+  else
+    normal_complementarity({nodes.multiplier, nodes.gap, nodes.c}, nodes.area,
+                           nodes.status, nodes.value, nodes.by_multiplier,
+                           nodes.by_gap);
 }
 
 void Coulomb::begin_step() { _reach = _initial_reach; }
@@ -198,6 +199,14 @@ Bounds Coulomb::bounds(const NodeState& nodes,
   return found;
 }
 
+void Coulomb::bound_interior(NodeState& nodes) const
+{
+  Interior& interior = *nodes.interior;
+  Bounds found = bounds(nodes, interior.pressure);
+  interior.bound = std::move(found.bound);
+  interior.by_pressure = std::move(found.by_pressure);
+}
+
 std::vector<double> Coulomb::friction(const NodeState& nodes) const
 {
   return bounds(nodes, pressures(nodes)).by_pressure;
@@ -269,14 +278,19 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
 void Coulomb::evaluate(NodeState& nodes) const
 {
   check_multipliers(*this, nodes);
-  const Bounds found = bounds(nodes, pressures_hat(nodes));
-  frictional_complementarity({nodes.gdim(), nodes.multiplier, nodes.gap,
-                              nodes.normal, nodes.slip, nodes.c,
-                              found.by_pressure, found.bound, found.by_slip,
-                              nodes.tangential_ratio},
-                             nodes.area, nodes.status, nodes.mobile,
-                             {nodes.value, nodes.by_multiplier, nodes.by_gap,
-                              nodes.by_slip, nodes.by_normal});
+  if (nodes.interior)
+    interior_complementarity(nodes);
+  else
+  {
+    const Bounds found = bounds(nodes, pressures_hat(nodes));
+    frictional_complementarity({nodes.gdim(), nodes.multiplier, nodes.gap,
+                                nodes.normal, nodes.slip, nodes.c,
+                                found.by_pressure, found.bound, found.by_slip,
+                                nodes.tangential_ratio},
+                               nodes.area, nodes.status, nodes.mobile,
+                               {nodes.value, nodes.by_multiplier, nodes.by_gap,
+                                nodes.by_slip, nodes.by_normal});
+  }
   if (nodes.mean)
     nodes.mean->chain(nodes.normal, nodes.by_slip, nodes.by_normal);
 }

@@ -51,6 +51,11 @@ public:
   /// @throws std::invalid_argument if the multipliers are not those of the law.
   virtual void evaluate(NodeState& nodes) const = 0;
 
+  /// @brief Set the bounds of friction of nodes on an interior path, by their
+  /// pressures there; zero without friction.
+  /// @param[in,out] nodes Slave nodes with an interior state.
+  virtual void bound_interior(NodeState&) const {}
+
   /// @brief True if it calls a user's function, which may throw on one rank
   /// alone.
   virtual bool may_throw() const { return false; }
@@ -124,6 +129,8 @@ public:
   /// @param[in] nodes Slave nodes.
   /// @throws std::invalid_argument as above.
   std::vector<std::int8_t> has_friction(const NodeState& nodes) const;
+
+  void bound_interior(NodeState& nodes) const override;
 
   bool may_throw() const override { return bool(_bound); }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../mesh/ranks.h"
+#include "interior.h"
 #include "mean_normal.h"
 #include "normal.h"
 #include <cmath>
@@ -80,11 +81,10 @@ public:
   std::vector<std::int32_t> slip_reversals;
   /// How often nodes have closed with slip in this step (shape=(n))
   std::vector<std::int32_t> slip_closings;
-  /// Compliance of a layer between the surfaces, over 1 / c; zero but on a soft
-  /// path
-  double layer_compliance = 0;
   /// Complementarity factor along the surface, as a part of c
   double tangential_ratio = 1;
+  /// Where the nodes are while an interior-point method solves
+  std::optional<Interior> interior;
 
   /// Complementarity function, a force (shape=(n, size))
   std::vector<double> value;

@@ -33,7 +33,7 @@ void contactx::law::normal_complementarity(const NormalState& state,
   for (std::size_t i = 0; i < status.size(); ++i)
   {
     const bool closed = status[i] != open;
-    d_pressure[i] = closed ? area[i] * state.layer_compliance : area[i];
+    d_pressure[i] = closed ? 0 : area[i];
     d_gap[i] = closed ? area[i] * state.c[i] : 0;
     value[i] = d_pressure[i] * state.pressure[i];
     if (closed)

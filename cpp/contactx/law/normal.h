@@ -23,8 +23,6 @@ struct NormalState
   std::span<const double> pressure;
   std::span<const double> gap; ///< NaN where a node has no pair
   std::span<const double> c;   ///< complementarity factor, traction/length
-  /// Compliance of a layer between the surfaces, over 1 / c
-  double layer_compliance = 0;
 };
 
 /// @brief Pressure by which a node is closed, where it is positive.
@@ -49,7 +47,7 @@ std::int32_t normal_status(const NormalState& state,
 
 /// @brief Complementarity function of the normal direction, times the area:
 /// A c g on closed nodes and A p on open ones (Alart & Curnier 1991), both
-/// forces. A soft layer adds softness p to c g.
+/// forces.
 /// @param[in] state Pressures and gaps.
 /// @param[in] area Area of each node.
 /// @param[in] status Status of each node.

@@ -106,8 +106,14 @@ void CondensedSolver::solve(std::span<const double> b, std::span<double> x)
     const solve::Iterate& now = loop.iterate();
     if (_is_predicted)
       _accuracy.skip();
-    _accuracy.set(now.residual, now.tolerance, loop.changing(),
-                  loop.active_set().cycles() > 0);
+    if (loop.path().is_on())
+    {
+      _accuracy.skip();
+      _accuracy.set(now.tolerance, now.tolerance, 0);
+    }
+    else
+      _accuracy.set(now.residual, now.tolerance, loop.changing(),
+                    loop.active_set().cycles() > 0);
   }
   ++_statistics.solves;
   _is_predicted = false;

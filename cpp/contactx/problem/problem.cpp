@@ -289,28 +289,30 @@ bool Problem::iterate(LinearSolver& solver, const Tolerances& tolerances)
     {
       solver.update();
       solver.solve(b, dx);
+      if (_loop.corrects(dx))
+      {
+        _system->residual(b);
+        solver.solve(b, dx);
+      }
     }
     catch (const solve::NotFinite& error)
     {
       _found->failure = error.what();
       return false;
     }
-    if (not _loop.softens(dx))
-    {
-      _system->unknowns(x);
-      take(_loop.limit(dx,
-                       [&](double part)
-                       {
-                         take(part);
-                         _system->residual(force);
-                         const bool is_finite = std::ranges::all_of(
-                             force, [](double f) { return std::isfinite(f); });
-                         if (not mesh::everywhere(_halo->ranks(), is_finite))
-                           return std::numeric_limits<double>::infinity();
-                         solver.solve(force, correction);
-                         return _loop.size_of(correction);
-                       }));
-    }
+    _system->unknowns(x);
+    take(_loop.limit(dx,
+                     [&](double part)
+                     {
+                       take(part);
+                       _system->residual(force);
+                       const bool is_finite = std::ranges::all_of(
+                           force, [](double f) { return std::isfinite(f); });
+                       if (not mesh::everywhere(_halo->ranks(), is_finite))
+                         return std::numeric_limits<double>::infinity();
+                       solver.solve(force, correction);
+                       return _loop.size_of(correction);
+                     }));
     moved();
   }
 }
@@ -543,7 +545,7 @@ double Problem::limit(std::span<const double> dx)
   std::vector<double> step(dx.begin(), dx.end());
   for (double& s : step)
     s = -s;
-  return _loop.softens(step) ? 0 : _loop.limit(step);
+  return _loop.limit(step);
 }
 
 void Problem::update(std::span<const double> dx, double part)
@@ -609,7 +611,7 @@ void Problem::summarise()
   const solve::FreeBodies& bodies = _loop.free_bodies();
   const auto& gaps = active_set.hidden_gaps();
   _report.frozen_gap = gaps.empty() ? 0 : std::ranges::min(gaps);
-  _report.soft = active_set.soft_iterations();
+  _report.interior = _loop.path().iterations();
   _report.limited = _loop.length().limited();
   _report.shortened = _loop.length().damped();
   _report.cycles = active_set.cycles();
@@ -738,6 +740,7 @@ std::vector<std::shared_ptr<results::Results>> Problem::results() const
 void Problem::restore()
 {
   ++_restores;
+  _loop.leave_path();
   if (_before)
     _before->restore();
   _has_begun = false;

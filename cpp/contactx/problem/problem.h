@@ -95,7 +95,7 @@ struct Report
   double frozen_gap = 0;         ///< smallest gap that these hide
   double slip = 0;               ///< sum of the slip of this step, a length
   double dissipation = 0;        ///< work of friction of all steps
-  int soft = 0;                  ///< linear solves with soft contact
+  int interior = 0;              ///< iterates of the interior point
   int limited = 0;               ///< steps that cells have limited
   int shortened = 0;             ///< steps that were damped
   int cycles = 0;                ///< how often a status has come back
@@ -276,7 +276,8 @@ public:
   void read();
 
   /// @brief Part of a step that may be taken, see solve::Loop::limit; zero
-  /// where the step shall not be taken, as contact becomes soft instead.
+  /// where the step is the affine one of an interior point: the next residual
+  /// is that of its corrector, by the same Jacobian.
   /// @param[in] dx Increment, which is added to the unknowns (shape=(size)).
   double limit(std::span<const double> dx);
 

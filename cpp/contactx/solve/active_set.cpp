@@ -91,10 +91,7 @@ ActiveSet::ActiveSet(std::shared_ptr<mesh::Halo> halo,
     : _halo(std::move(halo)), _contacts(std::move(contacts)),
       _bodies(std::move(bodies)), _junctions(slaves_of(_contacts)),
       _has_junctions(
-          mesh::anywhere(_halo->ranks(), not _junctions.shared().empty())),
-      _may_soften(std::ranges::all_of(
-          _contacts, [](const auto& c)
-          { return c->law()->is_tied() or not c->law()->is_vector(); }))
+          mesh::anywhere(_halo->ranks(), not _junctions.shared().empty()))
 {
 }
 
@@ -106,16 +103,12 @@ void ActiveSet::begin_step()
   _halo->shrink();
   for (const auto& c : _contacts)
     c->begin_step();
-  _path.begin_step();
-  take_softness();
-  _soft_iterations = 0;
   _guard.begin_step();
 }
 
 Changes ActiveSet::update(const Forces& forces, bool is_first)
 {
-  // On the soft path iterates stay near the solution
-  return update(forces, is_first, not is_soft());
+  return update(forces, is_first, true);
 }
 
 Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
@@ -161,6 +154,20 @@ Changes ActiveSet::update(bool is_first)
   std::array sums{changes.status, changes.pairs};
   _halo->ranks().reduce(std::span<std::int64_t>(sums), mesh::Reduction::sum);
   return {sums[0], sums[1]};
+}
+
+void ActiveSet::pair()
+{
+  freeze(false);
+  _is_stale = false;
+  _changes = {};
+  for (const auto& c : _contacts)
+    _changes.pairs += c->search();
+  _changes.pairs = mesh::total(_halo->ranks(), _changes.pairs);
+  for (const auto& c : _contacts)
+    c->update_gap();
+  if (_bodies)
+    _bodies->release();
 }
 
 void ActiveSet::foresee()
@@ -252,63 +259,8 @@ void ActiveSet::reset_flips()
     c->master()->reset_flips();
 }
 
-bool ActiveSet::softens(const std::vector<std::span<const double>>& step)
-{
-  if (step.size() != _contacts.size())
-    throw std::invalid_argument("step must have changes for each contact");
-  if (not _may_soften or is_soft())
-    return false;
-  HardStep sum;
-  for (std::size_t k = 0; k < step.size(); ++k)
-  {
-    const law::NodeState& nodes = *_contacts[k]->nodes();
-    if (_contacts[k]->law()->is_tied())
-      continue;
-    if (step[k].size() != nodes.multiplier.size())
-      throw std::invalid_argument("step must have a change for each "
-                                  "multiplier");
-    const HardStep part = look_at_step({nodes.multiplier, nodes.gap, nodes.c},
-                                       nodes.area, nodes.status, step[k]);
-    sum.work += part.work;
-    sum.local += part.local;
-    sum.closed += part.closed;
-    sum.opening += part.opening;
-  }
-  std::array sums{sum.work, sum.local, sum.closed, sum.opening};
-  _halo->ranks().reduce(std::span<double>(sums), mesh::Reduction::sum);
-  if (not _path.begins({sums[0], sums[1], sums[2], sums[3]}))
-    return false;
-  take_softness();
-  return true;
-}
-
-void ActiveSet::advance(bool is_full)
-{
-  if (not is_soft())
-    return;
-  ++_soft_iterations;
-  _path.advance(_changes.status, num_closed(), is_full);
-  take_softness();
-}
-
-void ActiveSet::harden()
-{
-  _path.harden();
-  take_softness();
-}
-
-void ActiveSet::take_softness()
-{
-  for (const auto& c : _contacts)
-    if (not c->law()->is_tied())
-      c->nodes()->layer_compliance = _path.compliance();
-}
-
 void ActiveSet::note(double residual)
 {
-  // Soft contact is another problem
-  if (is_soft())
-    return;
   std::vector<std::span<const std::int8_t>> status;
   for (const auto& c : _contacts)
     status.push_back(c->nodes()->status);

@@ -8,7 +8,6 @@
 #include "free_bodies.h"
 #include "frozen_pairs.h"
 #include "shared_nodes.h"
-#include "soft_path.h"
 
 namespace contactx::solve
 {
@@ -57,6 +56,9 @@ public:
   /// @param[in] is_first Whether the iterate is the step's start.
   Changes update(const Forces& forces, bool is_first = false);
 
+  /// @brief Update pairs and gaps alone, with the kinematics of the iterate.
+  void pair();
+
   /// @brief Changes of the last `update`.
   const Changes& changes() const { return _changes; }
 
@@ -69,25 +71,6 @@ public:
   /// @brief True if the conditions of the contacts are linear now, so that no
   /// pressure turns with a body.
   bool is_linear() const;
-
-  /// @brief True if the next step shall not be taken: contact
-  /// becomes soft instead, see SoftPath.
-  ///
-  /// Friction must find stick and slip at the same time, which a soft layer
-  /// does not help: contacts without friction alone take the path, and only if
-  /// no other contact has friction.
-  /// @param[in] step Changes of each contact's multipliers.
-  bool softens(const std::vector<std::span<const double>>& step);
-
-  /// @brief True while contact is soft.
-  bool is_soft() const { return _path.compliance() > 0; }
-
-  /// @brief Go on along the soft path after an accepted iterate.
-  /// @param[in] is_full Whether the step to it was taken in full.
-  void advance(bool is_full);
-
-  /// @brief Make contact hard again, where soft contact has converged.
-  void harden();
 
   /// @brief True if only `CycleGuard::step_fraction` of the last step is to be
   /// taken, because the active set cycles. Asked once a step.
@@ -116,9 +99,6 @@ public:
   /// @brief Number of times that a status has come back in this step.
   int cycles() const { return _guard.cycles(); }
 
-  /// @brief Linear solves of this step with soft contact.
-  int soft_iterations() const { return _soft_iterations; }
-
   /// @brief Number of nodes that close several contacts, on all ranks.
   std::int64_t num_corners() const;
 
@@ -137,7 +117,6 @@ private:
   void freeze(bool is_frozen);
   void reset_flips();
   bool hide_penetration();
-  void take_softness();
   bool are_many(std::int64_t changes) const;
 
   std::shared_ptr<mesh::Halo> _halo;
@@ -147,9 +126,6 @@ private:
   bool _has_junctions;
   CycleGuard _guard;
   FrozenPairs _frozen;
-  SoftPath _path;
-  bool _may_soften;
-  int _soft_iterations = 0;
   Changes _changes;
   bool _is_frozen = false;
   // Whether the residual is one of frozen kinematics, or of pairs that were

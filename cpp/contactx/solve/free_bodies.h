@@ -121,6 +121,14 @@ public:
   /// @brief True if any contact has Coulomb friction.
   bool has_friction() const;
 
+  /// @brief Take the springs away: something else keeps the bodies.
+  void release()
+  {
+    _springs.reset();
+    _free_modes = 0;
+    _is_unbalanced = false;
+  }
+
   /// @brief Find the free modes of the bodies.
   void begin_step();
 

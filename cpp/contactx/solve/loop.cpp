@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 using namespace contactx;
 using namespace contactx::solve;
@@ -33,6 +34,7 @@ Loop::Loop(std::shared_ptr<System> system,
           std::move(bodies), _system->bulk(), holdings(_system->contacts()),
           _system->halo()->original().first(_system->halo()->num_owned()))),
       _active_set(_system->halo(), _system->contacts(), _bodies),
+      _path(_system),
       _forces{[this] { return _system->forces(); },
               [this]
               {
@@ -47,6 +49,8 @@ bool Loop::begin_step(bool damped)
 {
   _system->begin_step();
   _active_set.begin_step();
+  _path.begin_step(damped);
+  _is_held = false;
   _length.begin_step(damped, _convergence.scales().length);
   const std::span<const double> u = _system->bulk()->displacements();
   _start.assign(u.begin(), u.end());
@@ -136,7 +140,13 @@ void Loop::update_active_set(bool is_first)
 Verdict Loop::judge(bool is_start, double rtol, double atol,
                     std::span<double> b)
 {
-  if (not is_start)
+  if (_path.is_on())
+  {
+    if (const Verdict verdict = judge_path(rtol, atol, b);
+        verdict != Verdict::solution)
+      return verdict;
+  }
+  else if (not is_start)
   {
     if (not _has_stepped)
       look_ahead();
@@ -144,15 +154,20 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     take_back();
     take_off_drift();
     update_active_set(false);
-    _active_set.advance(_length.part() == 1);
+    const std::int64_t changes = _active_set.changes().status,
+                       closed = _active_set.num_closed();
+    if (_path.is_trial() and _path.is_refused(changes, closed))
+    {
+      _path.resume();
+      return judge_path(rtol, atol, b);
+    }
+    if (not _path.is_trial() and _path.begins(changes, closed))
+    {
+      _path.start();
+      return judge_path(rtol, atol, b);
+    }
   }
   bool is_small = compare(rtol, atol, b);
-  if (is_small and _active_set.is_soft())
-  {
-    _active_set.harden();
-    ++_version;
-    is_small = compare(rtol, atol, b);
-  }
   while (is_small)
   {
     const auto end = _active_set.may_end(_forces);
@@ -165,11 +180,8 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   }
   _active_set.note(_iterate.residual);
   _length.note(_iterate.changes.status > 0 or _iterate.changes.pairs > 0);
-  if (not _active_set.is_soft())
-  {
-    _last.emplace(_system->size());
-    _system->unknowns(*_last);
-  }
+  _last.emplace(_system->size());
+  _system->unknowns(*_last);
   const bool is_unbalanced = _balance.note(
       _bodies->is_unbalanced(), _iterate.changes.status, _iterate.residual);
   if (not std::isfinite(_iterate.residual))
@@ -191,8 +203,67 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   return _balance.has_diverged() ? Verdict::stuck : Verdict::unbalanced;
 }
 
+/// Brings an interior point up to the iterate, and decides whether it ends.
+Verdict Loop::judge_path(double rtol, double atol, std::span<double> b)
+{
+  if (std::exchange(_is_held, false))
+  {
+    compare(rtol, atol, b);
+    return Verdict::goes_on;
+  }
+  _path.take();
+  if (_path.is_stuck())
+  {
+    _path.give_up();
+    ++_version;
+    update_active_set(false);
+    return compare(rtol, atol, b) ? Verdict::solution : Verdict::goes_on;
+  }
+  _active_set.pair();
+  _path.predict();
+  ++_version;
+  compare(rtol, atol, b);
+  double sum = 0;
+  const auto markers = _system->bulk()->markers();
+  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
+    if (markers[i] != 1)
+      sum += b[i] * b[i];
+  const double residual = std::sqrt(mesh::total(_system->halo()->ranks(), sum));
+  if (not std::isfinite(residual))
+    return Verdict::not_finite;
+  if (not _path.may_end(residual / _convergence.scale()))
+    return Verdict::goes_on;
+  _path.leave();
+  ++_version;
+  return compare(rtol, atol, b) ? Verdict::solution : Verdict::goes_on;
+}
+
+bool Loop::corrects(std::span<const double> dx)
+{
+  if (not _path.is_predictor())
+    return false;
+  _path.correct(dx);
+  return true;
+}
+
 double Loop::limit(std::span<const double> dx, const Correction& correction)
 {
+  if (corrects(dx))
+  {
+    _is_held = true;
+    return 0;
+  }
+  if (_path.is_on())
+  {
+    const double part = _path.limit(dx);
+    std::vector<double> step(dx.begin(), dx.end());
+    for (double& d : step)
+      d *= part;
+    const double within = within_cells(step);
+    _path.shorten(within);
+    return part * within;
+  }
+  _path.note(dx);
   foresee(dx);
   const double size = size_of(dx);
   _length.begin(size, std::isfinite(size) ? within_cells(dx) : 1);
@@ -277,25 +348,6 @@ bool Loop::compare(double rtol, double atol, std::span<double> b)
   size = mesh::largest(_system->halo()->ranks(), size);
   return found.residual <= found.tolerance
          and found.defect <= dirichlet_rel_tol * size;
-}
-
-bool Loop::softens(std::span<const double> dx)
-{
-  if (not _has_stepped)
-    return false;
-  const auto& offsets = _system->offsets();
-  const std::size_t n = _system->num_bulk();
-  std::vector<double> step(dx.begin() + n, dx.end());
-  for (std::size_t i = 0; i < step.size(); ++i)
-    step[i] *= -_system->factors()[i];
-  std::vector<std::span<const double>> steps;
-  for (std::size_t k = 1; k + 1 < offsets.size(); ++k)
-    steps.push_back(std::span<const double>(step).subspan(
-        offsets[k] - n, offsets[k + 1] - offsets[k]));
-  if (not _active_set.softens(steps))
-    return false;
-  ++_version;
-  return true;
 }
 
 double Loop::within_cells(std::span<const double> dx) const

@@ -6,6 +6,7 @@
 #include "active_set.h"
 #include "balance_guard.h"
 #include "convergence.h"
+#include "interior_point.h"
 #include "step_length.h"
 #include <functional>
 
@@ -53,7 +54,7 @@ struct Iterate
 ///     for (Verdict v = loop.judge(b, ...); v == goes_on; v = loop.judge(...))
 ///     {
 ///       // solve J dx = b, with loop.springs() on J's diagonal
-///       if (loop.softens(dx)) continue;       // contact is soft from now on
+///       if (loop.corrects(dx)) ...            // solve J dx = b anew
 ///       system.take(x - loop.limit(dx, correction) * dx);
 ///     }
 ///     contacts accept; loop.accept();
@@ -117,13 +118,21 @@ public:
   /// displacements of linear solves apart.
   std::int64_t version() const { return _version; }
 
-  /// @brief True if the next step shall not be taken: contact
-  /// becomes soft instead, see SoftPath.
+  /// @brief Take a step for the affine one of an interior point: the residual
+  /// of now, by the same Jacobian, is then that of the corrector, which is to
+  /// be solved for.
   ///
-  /// The first step of all is taken: it brings the displacements that are
-  /// prescribed, and what it opens says nothing.
+  /// Where a solver does not ask, `limit` does, and allows nothing of the step.
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
-  bool softens(std::span<const double> dx);
+  /// @return Whether it was one.
+  bool corrects(std::span<const double> dx);
+
+  /// @brief The interior-point method.
+  const InteriorPoint& path() const { return _path; }
+
+  /// @brief Let the active set go on alone in this step: a solver with a line
+  /// search of its own does not take steps in full.
+  void bar_path() { _path.bar(); }
 
   /// @brief Size of the next correction, by the same Jacobian, after a part of
   /// a step, see `size_of`; infinite if the residual is not finite there.
@@ -167,6 +176,9 @@ public:
   /// stiffness.
   void reset() { _bodies->reset(); }
 
+  /// @brief Leave the path of an interior point, as a step has failed.
+  void leave_path() { _path.drop(); }
+
 private:
   void update_active_set(bool is_first);
   void foresee(std::span<const double> dx);
@@ -174,6 +186,7 @@ private:
   bool find_homogeneous();
   void take_back();
   void take_off_drift();
+  Verdict judge_path(double rtol, double atol, std::span<double> b);
   bool compare(double rtol, double atol, std::span<double> b);
   std::vector<double> stiffness();
   void set_factors(std::span<const double> stiffness);
@@ -182,6 +195,9 @@ private:
   Convergence _convergence;
   std::shared_ptr<FreeBodies> _bodies;
   ActiveSet _active_set;
+  InteriorPoint _path;
+  // Whether a corrector is to be solved for that no solver has asked for
+  bool _is_held = false;
   Forces _forces;
   StepLength _length;
   BalanceGuard _balance;
@@ -192,7 +208,7 @@ private:
   std::vector<double> _start;
   // Where the first Newton step would lead in full
   std::vector<double> _ahead;
-  // The iterate before with hard contact
+  // The iterate before
   std::optional<std::vector<double>> _last;
 };
 } // namespace contactx::solve

@@ -24,8 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     area[i] = in.positive();
     status[i] = static_cast<std::int8_t>(in.below(3));
   }
-  const double layer_compliance = in.flag() ? in.positive() : 0;
-  const law::NormalState state{pressure, gap, c, layer_compliance};
+  const law::NormalState state{pressure, gap, c};
   law::normal_status(state, status);
   require(law::normal_status(state, status) == 0, "the status is settled");
 

@@ -102,8 +102,6 @@ TEST_P(LawDerivatives, AreDifferencesOfTheValue)
     NodeState nodes(n, gdim, law->is_vector());
     randomise(nodes, random);
     nodes.frictionless[5] = nodes.frictionless[7] = nodes.frictionless[9] = 1;
-    if (not law->is_vector())
-      nodes.layer_compliance = 0.3;
     const auto evaluate = [&]
     {
       law->evaluate(nodes);

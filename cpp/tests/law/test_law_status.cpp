@@ -63,27 +63,6 @@ TEST(FrictionlessLaw, ImmobileAndCededNodesStayOpen)
   EXPECT_EQ(nodes.status, (std::vector<std::int8_t>{open, open, slip}));
 }
 
-TEST(FrictionlessLaw, ASoftLayerAddsItsCompliance)
-{
-  NodeState nodes(2, 3, false);
-  nodes.multiplier = {3, 3};
-  nodes.gap = {-0.5, -0.5};
-  nodes.area = {2, 2};
-  nodes.c = {4, 4};
-  nodes.status = {slip, open};
-  nodes.layer_compliance = 0.25;
-  const Frictionless law;
-  law.evaluate(nodes);
-  // A (c g + s p), and A p on the open node
-  EXPECT_EQ(nodes.value, (std::vector{2 * (4 * -0.5 + 0.25 * 3), 6.0}));
-  EXPECT_EQ(nodes.by_multiplier, (std::vector{0.5, 2.0}));
-  EXPECT_EQ(nodes.by_gap, (std::vector{8.0, 0.0}));
-  nodes.layer_compliance = -1;
-  EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
-  nodes.layer_compliance = NAN;
-  EXPECT_THROW(law.evaluate(nodes), std::invalid_argument);
-}
-
 TEST(CoulombLaw, ChecksItsCoefficients)
 {
   law::Coulomb law;

@@ -65,7 +65,6 @@ struct Springs : SpringBodies
         x[i] -= step[i];
       system->take(x);
       set->update(none);
-      set->advance(true);
     }
     return -1;
   }
@@ -352,46 +351,6 @@ TEST(ActiveSet, OpenNodesLoseTheirPressures)
   scene.set->update(scene.none);
   for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
     EXPECT_EQ(nodes.multiplier[i], i == 1 ? 0.1 : 0);
-}
-
-TEST(ActiveSet, SoftContactIsForContactsWithoutFrictionAlone)
-{
-  for (const bool has_friction : {false, true})
-  {
-    Springs scene(3);
-    scene.add<NodeToSurface>(std::make_shared<law::Frictionless>());
-    if (has_friction)
-      scene.add<NodeToSurface>(scene.law(0.3));
-    scene.set->begin_step();
-    std::vector<std::vector<double>> changes;
-    for (const auto& c : scene.contacts)
-    {
-      c->set_factor(std::vector<double>(scene.scene.sheets.num_nodes(), 1.0));
-      c->update_gap();
-      std::ranges::fill(c->nodes()->status, law::slip);
-      // Bodies that are much softer than their surfaces: a gap is closed by
-      // little pressure, and most of the nodes would be pulled
-      changes.emplace_back(c->nodes()->multiplier.size(), -1e-9);
-    }
-    std::vector<std::span<const double>> step(changes.begin(), changes.end());
-    EXPECT_EQ(scene.set->softens(step), not has_friction);
-    EXPECT_EQ(scene.set->is_soft(), not has_friction);
-    EXPECT_EQ(scene.contacts[0]->nodes()->layer_compliance > 0,
-              not has_friction);
-    if (has_friction)
-      continue;
-    // Once a step
-    EXPECT_FALSE(scene.set->softens(step));
-    // Many change, but nothing leads far astray
-    EXPECT_GT(scene.set->update(scene.none).status, 0);
-    EXPECT_FALSE(scene.set->is_frozen());
-    scene.set->advance(true);
-    EXPECT_EQ(scene.set->soft_iterations(), 1);
-    scene.set->harden();
-    EXPECT_EQ(scene.contacts[0]->nodes()->layer_compliance, 0);
-    EXPECT_FALSE(scene.set->softens(step));
-    EXPECT_THROW(scene.set->softens({}), std::invalid_argument);
-  }
 }
 
 TEST(ActiveSet, IteratesThatGoRoundAreShortened)

@@ -72,19 +72,16 @@ struct Newton : SpringBodies
     {
       const Eigen::MatrixXd J = matrix();
       const std::vector<double> dx = tests::solution(J, b), x = unknowns();
-      if (not loop->softens(dx))
+      StepLength& length = loop->length();
+      length.begin(loop->size_of(dx), loop->within_cells(dx));
+      while (length.has_trial())
       {
-        StepLength& length = loop->length();
-        length.begin(loop->size_of(dx), loop->within_cells(dx));
-        while (length.has_trial())
-        {
-          take(x, dx, length.part());
-          iterates.pop_back();
-          system().residual(b);
-          length.judge(loop->size_of(tests::solution(J, b)));
-        }
         take(x, dx, length.part());
+        iterates.pop_back();
+        system().residual(b);
+        length.judge(loop->size_of(tests::solution(J, b)));
       }
+      take(x, dx, length.part());
       verdict = judge();
     }
     if (verdict == Verdict::solution)
@@ -543,52 +540,6 @@ TEST(Loop, TheVersionTellsWhenTheJacobianHasChanged)
   version = found.loop->version();
   found.loop->settle_first();
   EXPECT_GT(found.loop->version(), version);
-}
-
-TEST(Loop, SoftContactGetsHardBeforeTheEnd)
-{
-  Newton found(3);
-  found.add<NodeToSurface>(found.law(0));
-  found.begin();
-  law::NodeState& nodes = *found.contacts[0]->nodes();
-  // The first step brings what is prescribed, and what it opens says nothing
-  const std::vector<double> none(found.system().size());
-  std::ranges::fill(nodes.status, law::slip);
-  std::vector<double> pull(none);
-  std::fill(pull.begin() + found.system().num_displacements(), pull.end(), 1);
-  EXPECT_FALSE(found.loop->softens(pull));
-  found.judge();
-  std::ranges::fill(nodes.status, law::slip);
-  // Bodies much softer than their surfaces: little pressure closes the gaps,
-  // and most nodes would be pulled
-  std::vector<double> dx(found.system().size());
-  const std::size_t n = found.system().num_displacements();
-  for (std::size_t i = n; i < dx.size(); ++i)
-    dx[i] = 1e-9 / found.system().factors()[i - n];
-  const std::int64_t version = found.loop->version();
-  std::vector<double> opposite = dx;
-  for (double& v : opposite)
-    v = -v;
-  EXPECT_FALSE(found.loop->softens(opposite));
-  EXPECT_EQ(found.loop->version(), version);
-  EXPECT_TRUE(found.loop->softens(dx));
-  EXPECT_EQ(found.loop->version(), version + 1);
-  EXPECT_TRUE(found.loop->active_set().is_soft());
-  // Nodes go down until their layers carry what presses: no solution yet
-  const double softness = nodes.layer_compliance, depth = 0.05 + 1e-3;
-  found.scene.put_slave(0, -depth);
-  for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
-  {
-    nodes.multiplier[i] = 1e-3 * nodes.c[i] / softness;
-    found.bulk->ends[3 * i + 2]
-        = -depth - nodes.area[i] * nodes.multiplier[i] / 3;
-  }
-  // The master may give way
-  found.rtol = 2;
-  EXPECT_EQ(found.judge(), Verdict::goes_on);
-  EXPECT_FALSE(found.loop->active_set().is_soft());
-  EXPECT_EQ(found.loop->active_set().soft_iterations(), 1);
-  EXPECT_EQ(nodes.layer_compliance, 0);
 }
 
 TEST(Loop, FactorsOfComplementarityAreOfSpringsInSeries)

@@ -98,6 +98,8 @@ class NewtonLoop:
         self._report = report
         self._failure, self._is_final = "", False
         self._has_full_steps = self.snes.getLineSearch().getType() == "basic"
+        if not self._has_full_steps:
+            self._loop.bar_path()
         self.snes.setFunction(weakly(self._function), self._system.b)
         self._linear.begin_step(self.snes, report)
         self._version = -1
@@ -189,15 +191,15 @@ class NewtonLoop:
     def _shorten(self, x: PETSc.Vec, step: PETSc.Vec) -> bool:
         """Shorten a Newton step before the line search; returns whether it may have changed."""
         # A line search of the user's would have nowhere to go
-        if self._has_full_steps and self._loop.softens(step.array_r):
-            step.zeroEntries()
-        else:
-            part = self._loop.limit(step.array_r, lambda part: self._next_size(x, step, part))
-            if part < 1:
-                step.scale(part)
-            if self._trial is not None:
-                self._function(self.snes, x, self._system.b)
-                self._trial = None
+        if self._loop.corrects(step.array_r):
+            self._function(self.snes, x, self._system.b)
+            self.snes.getKSP().solve(self._system.b, step)
+        part = self._loop.limit(step.array_r, lambda part: self._next_size(x, step, part))
+        if part < 1:
+            step.scale(part)
+        if self._trial is not None:
+            self._function(self.snes, x, self._system.b)
+            self._trial = None
         return True
 
     def _next_size(self, x: PETSc.Vec, step: PETSc.Vec, part: float) -> float:

@@ -16,6 +16,7 @@ import bench_locking
 import bench_many
 import bench_methods
 import bench_nafems
+import bench_path
 import bench_peers
 import bench_rates
 import bench_scenes
@@ -180,6 +181,12 @@ def test_limit(monkeypatch):
     rows = bench_limit.main(["0.1"])
     assert [row["scene"] for row in rows[:3]] == [bench_limit.LIMIT, *2 * [METHODS[0]]]
     assert all(row["ratio"] > 0 and row["peak"] > row["memory"] > 0 for row in rows)
+
+
+def test_interior_point():
+    rows = bench_path.main(["20"])
+    assert len(rows) == 14
+    assert rows[-1]["interior"] > 0
 
 
 def test_many():
