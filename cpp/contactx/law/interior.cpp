@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "interior.h"
+#include "cone.h"
 #include "node_state.h"
 #include <algorithm>
 #include <cmath>
@@ -14,98 +15,7 @@ namespace
 {
 using Map = Eigen::Map<const Eigen::VectorXd>;
 
-/// v0^2 - |v1|^2 without cancellation
-double det(const ConeVector& v)
-{
-  const double length = v.tail(v.size() - 1).norm();
-  return std::max((v[0] - length) * (v[0] + length),
-                  std::numeric_limits<double>::min());
-}
-
-/// v with its vector turned round
-ConeVector reflected(ConeVector v)
-{
-  v.tail(v.size() - 1) *= -1;
-  return v;
-}
-
-/// Jordan's product
-ConeVector jordan(const ConeVector& a, const ConeVector& b)
-{
-  ConeVector c = a[0] * b + b[0] * a;
-  c[0] = a.dot(b);
-  return c;
-}
 } // namespace
-
-ConePair::ConePair(const ConeVector& x, const ConeVector& y)
-    : _x(x), _factor(std::sqrt(det(y) / det(x)))
-{
-  const ConeVector a = x / std::sqrt(det(x)), b = y / std::sqrt(det(y));
-  _u = (b + reflected(a)) / std::sqrt(2 * (1 + std::max(a.dot(b), 1.0)));
-  _q = _u;
-  _q[0] += 1;
-  _q /= std::sqrt(2 * (1 + _u[0]));
-}
-
-/// (2 q q^T - J) v
-ConeVector ConePair::mirrored(const ConeVector& v, const ConeVector& q) const
-{
-  return 2 * q.dot(v) * q - reflected(v);
-}
-
-ConeVector ConePair::scaled(const ConeVector& v) const
-{
-  return _factor * mirrored(v, _u);
-}
-
-ConeVector ConePair::first_column() const
-{
-  return scaled(ConeVector::Unit(_x.size(), 0));
-}
-
-Eigen::MatrixXd ConePair::block() const
-{
-  const auto u = _u.tail(_u.size() - 1);
-  return _factor
-         * (2 * u * u.transpose()
-            + Eigen::MatrixXd::Identity(u.size(), u.size()));
-}
-
-ConeVector ConePair::inverse() const { return reflected(_x) / det(_x); }
-
-ConeVector ConePair::correction(const ConeVector& dx,
-                                const ConeVector& dy) const
-{
-  const double root = std::sqrt(_factor);
-  const ConeVector v = root * mirrored(_x, _q);
-  const ConeVector r
-      = jordan(root * mirrored(dx, _q), mirrored(dy, reflected(_q)) / root);
-  ConeVector z = r;
-  z[0] = v.dot(reflected(r)) / det(v);
-  z.tail(z.size() - 1)
-      = (r.tail(r.size() - 1) - z[0] * v.tail(v.size() - 1)) / v[0];
-  return -root * mirrored(z, _q);
-}
-
-double contactx::law::step_to_boundary(const ConeVector& x,
-                                       const ConeVector& dx)
-{
-  const auto inner = [](const ConeVector& a, const ConeVector& b)
-  { return a.dot(reflected(b)); };
-  const double a = inner(dx, dx), b = inner(x, dx), c = det(x);
-  double least = std::numeric_limits<double>::infinity();
-  if (dx[0] < 0)
-    least = -x[0] / dx[0];
-  if (const double root = b * b - a * c; root >= 0)
-  {
-    const double q = -(b + std::copysign(std::sqrt(root), b));
-    for (const double t : {q / a, c / q})
-      if (std::isfinite(t) and t > 0)
-        least = std::min(least, t);
-  }
-  return least;
-}
 
 Interior::Interior(const NodeState& nodes) : gdim(nodes.gdim())
 {
@@ -124,22 +34,6 @@ Interior::Interior(const NodeState& nodes) : gdim(nodes.gdim())
   product.assign(n, 0);
   correction.assign(nodes.is_vector() ? n * (1 + gdim) : 0, 0);
 }
-
-ConeVector Interior::x(std::size_t i) const
-{
-  ConeVector v(1 + gdim);
-  v << bound[i], Map(&traction[gdim * i], gdim);
-  return v;
-}
-
-ConeVector Interior::y(std::size_t i) const
-{
-  ConeVector v(1 + gdim);
-  v << slip_length[i], Map(&slip[gdim * i], gdim);
-  return v;
-}
-
-ConePair Interior::pair(std::size_t i) const { return {x(i), y(i)}; }
 
 void contactx::law::interior_complementarity(NodeState& nodes)
 {
@@ -177,7 +71,7 @@ void contactx::law::interior_complementarity(NodeState& nodes)
              by_turn = turn / c;
         if (in.has_friction[i])
         {
-          const ConePair pair = in.pair(i);
+          const ConePair pair = pair_of(in, i);
           const Rows F = across * pair.block();
           along = Vector(Map(&nodes.slip[g * i], g))
                   - 2 * in.target * Vector(pair.inverse().tail(g))

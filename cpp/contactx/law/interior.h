@@ -3,53 +3,12 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 namespace contactx::law
 {
 class NodeState;
-
-/// @brief Vector of a second-order cone: a scalar, then a vector.
-using ConeVector = Eigen::VectorXd;
-
-/// @brief Pair x, y of vectors inside the second-order cone { v : v0 > |v1| },
-/// with the scaling of Nesterov and Todd (SIAM J. Optim. 8, 1998): the matrix F
-/// for which F x = y.
-class ConePair
-{
-public:
-  /// @brief Take a pair.
-  /// @param[in] x Inside the cone.
-  /// @param[in] y Inside the cone.
-  ConePair(const ConeVector& x, const ConeVector& y);
-
-  /// @brief F v.
-  ConeVector scaled(const ConeVector& v) const;
-
-  /// @brief Column of F by the scalar, and the block of the vectors.
-  ConeVector first_column() const;
-  Eigen::MatrixXd block() const;
-
-  /// @brief Inverse of x by Jordan's product: J x / det x.
-  ConeVector inverse() const;
-
-  /// @brief Mehrotra's correction of dy + F dx = .. for an affine step: -W
-  /// L(v)^-1
-  /// [(W dx) o (W^-1 dy)], with W W = F and v = W x.
-  ConeVector correction(const ConeVector& dx, const ConeVector& dy) const;
-
-private:
-  ConeVector mirrored(const ConeVector& v, const ConeVector& q) const;
-
-  ConeVector _x, _u, _q;
-  double _factor; // sqrt(det y / det x)
-};
-
-/// @brief Largest t with x + t dx inside the second-order cone; infinite if
-/// there is none.
-double step_to_boundary(const ConeVector& x, const ConeVector& dx);
 
 /// @brief Slave nodes of a contact on the central path of a primal-dual
 /// interior-point method.
@@ -69,11 +28,6 @@ struct Interior
   /// @brief No node is on the path.
   /// @param[in] nodes Nodes of the contact.
   explicit Interior(const NodeState& nodes);
-
-  /// The pair ((b, t), (gamma, w)) of a node
-  ConePair pair(std::size_t i) const;
-  ConeVector x(std::size_t i) const;
-  ConeVector y(std::size_t i) const;
 
   int gdim;
   std::vector<std::int8_t> is_on;        ///< 1 at nodes on it (shape=(n))

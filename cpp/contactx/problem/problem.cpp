@@ -559,7 +559,10 @@ void Problem::update(std::span<const double> dx, double part)
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] += part * dx[i];
   _system->take(x);
-  moved();
+  if (part != 0)
+    moved();
+  // The corrector of an interior point is of the same iterate
+  _has_moved = true;
 }
 
 void Problem::moved()

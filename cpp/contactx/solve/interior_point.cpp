@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "interior_point.h"
-#include "../law/coulomb.h"
+#include "../law/cone.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,7 +101,10 @@ std::array<double, 3> InteriorPoint::means() const
       const double area = c->nodes()->area[i];
       double product = in->pressure[i] * in->slack[i];
       if (in->has_friction[i])
-        product = 0.5 * product + 0.25 * in->x(i).dot(in->y(i));
+        product = 0.5 * product
+                  + 0.25
+                        * law::bound_and_traction(*in, i).dot(
+                            law::slip_slacks(*in, i));
       sums[0] += area * in->pressure[i];
       sums[1] += area * in->slack[i];
       sums[2] += area * product;
@@ -375,11 +378,11 @@ InteriorPoint::increments(std::span<const double> dx) const
         if (in->has_friction[i])
         {
           MutableMap(&step.traction[size * i], size) = dt;
-          const law::ConePair pair = in->pair(i);
+          const law::ConePair pair = law::pair_of(*in, i);
           ConeVector x(1 + size);
           x << in->by_pressure[i] * dp, dt;
           const ConeVector y
-              = -in->y(i) + 2 * in->target * pair.inverse()
+              = -law::slip_slacks(*in, i) + 2 * in->target * pair.inverse()
                 + ConeVector(Map(&in->correction[(1 + size) * i], 1 + size))
                 - pair.scaled(x);
           step.slip_length[i] = y[0];
@@ -441,8 +444,10 @@ InteriorPoint::lengths(const std::vector<Step>& steps) const
       ConeVector x(1 + g), y(1 + g);
       x << in->by_pressure[i] * step.pressure[i], Map(&step.traction[g * i], g);
       y << step.slip_length[i], Map(&step.slip[g * i], g);
-      dual = std::min(dual, law::step_to_boundary(in->x(i), x));
-      primal = std::min(primal, law::step_to_boundary(in->y(i), y));
+      dual = std::min(
+          dual, law::step_to_boundary(law::bound_and_traction(*in, i), x));
+      primal = std::min(primal,
+                        law::step_to_boundary(law::slip_slacks(*in, i), y));
     }
   }
   return {mesh::least(ranks(), primal), mesh::least(ranks(), dual)};
@@ -545,7 +550,7 @@ void InteriorPoint::correct(std::span<const double> dx)
       x << in->by_pressure[i] * step.pressure[i], Map(&step.traction[g * i], g);
       y << step.slip_length[i], Map(&step.slip[g * i], g);
       MutableMap(&in->correction[(1 + g) * i], 1 + g)
-          = in->pair(i).correction(x, y);
+          = law::pair_of(*in, i).correction(x, y);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include "node_states.h"
 #include <Eigen/Eigenvalues>
+#include <contactx/law/cone.h>
 #include <contactx/math/matrix.h>
 #include <gtest/gtest.h>
 
@@ -175,7 +176,7 @@ Eigen::VectorXd linearised(const NodeState& nodes, std::size_t i,
   Eigen::VectorXd along = t / c;
   if (in.has_friction[i])
   {
-    const ConePair pair = in.pair(i);
+    const ConePair pair = law::pair_of(in, i);
     const Eigen::VectorXd t0
         = math::column(std::span(in.traction).subspan(g * i, g)),
         corrected
