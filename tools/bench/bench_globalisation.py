@@ -27,12 +27,15 @@ from story import METHODS, elasticity
 SIZES = (50, 100, 200, 400, 800, 1600)
 BELTS = (100, 200, 400)
 MATERIALS: dict[str, slender.Material] = {"linear": elasticity, "svk": st_venant_kirchhoff}
-COLUMNS: list[tables.Column] = [
+SCENE: list[tables.Column] = [
     ("scene", "scene", "s"),
     ("method", "method", "s"),
     ("material", "material", "s"),
     ("mu", "mu", "g"),
     ("cells", "cells", "d"),
+]
+COLUMNS: list[tables.Column] = [
+    *SCENE,
     ("steps", "steps", "d"),
     ("it", "it", "d"),
     ("failed", "discarded", "d"),

@@ -13,6 +13,7 @@ from typing import Any
 
 import runner
 import tables
+from bench_globalisation import SCENE
 
 import contactx as cx
 
@@ -28,11 +29,7 @@ MATERIALS = {
     "svk, nu 0.3": (st_venant_kirchhoff, 0.3),
 }
 COLUMNS: list[tables.Column] = [
-    ("scene", "scene", "s"),
-    ("method", "method", "s"),
-    ("material", "material", "s"),
-    ("mu", "mu", "g"),
-    ("cells", "cells", "d"),
+    *SCENE,
     ("it", "it", "d"),
     ("failed", "discarded", "d"),
     ("on the path", "interior", "d"),

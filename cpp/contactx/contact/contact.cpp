@@ -602,42 +602,29 @@ Triplets Contact::block(std::string_view term,
 Contact::Change Contact::change(std::span<const double> displacement,
                                 bool with_normals) const
 {
-  const auto now = _halo->now();
   const std::size_t n = _nodes->num_nodes(), size = _nodes->size();
   const int g = gdim();
-  std::array<std::vector<double>, 5> padded;
-  // Derivatives of what is asked for
+  // Product of the constraint's block with other derivatives than the law's
   const auto product
       = [&](std::vector<double>& by_gap, std::vector<double>& by_slip,
             std::vector<double>& by_normal)
   {
     if (_nodes->mean)
       _nodes->mean->chain(_nodes->normal, by_slip, by_normal);
-    std::swap(by_gap, _nodes->by_gap);
-    std::swap(by_slip, _nodes->by_slip);
-    std::swap(by_normal, _nodes->by_normal);
-    const kernel::NodalArrays read = arrays(now->u, padded);
+    const auto swap = [&]
+    {
+      std::swap(by_gap, _nodes->by_gap);
+      std::swap(by_slip, _nodes->by_slip);
+      std::swap(by_normal, _nodes->by_normal);
+    };
+    swap();
+    const Triplets C = block("constraint");
+    swap();
     std::vector<double> sum(n * size);
-    for (const auto& pairs : _pairs)
-      kernel::for_each_pair(kernel_law(), name_of(kinematics()), "constraint",
-                            *pairs, read, g, {},
-                            [&](std::span<const std::int32_t> rows,
-                                std::span<const std::int32_t> columns,
-                                std::span<const double> block)
-                            {
-                              const double* value = block.data();
-                              for (const std::int32_t row : rows)
-                                for (std::size_t k = 0; k < size; ++k)
-                                  for (const std::int32_t column : columns)
-                                    for (int l = 0; l < g; ++l, ++value)
-                                      if (std::size_t(row) < n)
-                                        sum[size * row + k]
-                                            += *value
-                                               * displacement[g * column + l];
-                            });
-    std::swap(by_gap, _nodes->by_gap);
-    std::swap(by_slip, _nodes->by_slip);
-    std::swap(by_normal, _nodes->by_normal);
+    // Slave nodes of other ranks come last
+    for (std::size_t e = 0; e < C.size(); ++e)
+      if (std::size_t(C.rows[e]) < sum.size())
+        sum[C.rows[e]] += C.values[e] * displacement[C.columns[e]];
     return sum;
   };
   const std::size_t square = _nodes->is_vector() ? n * g * g : 0;

@@ -33,9 +33,8 @@ public:
   /// @brief Inverse of x by Jordan's product: J x / det x.
   ConeVector inverse() const;
 
-  /// @brief Mehrotra's correction of dy + F dx = .. for an affine step: -W
-  /// L(v)^-1
-  /// [(W dx) o (W^-1 dy)], with W W = F and v = W x.
+  /// @brief Mehrotra's correction of dy + F dx = .. for an affine step:
+  /// -W L(v)^-1 [(W dx) o (W^-1 dy)], with W W = F and v = W x.
   ConeVector correction(const ConeVector& dx, const ConeVector& dy) const;
 
 private:

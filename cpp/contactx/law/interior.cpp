@@ -4,9 +4,6 @@
 #include "interior.h"
 #include "cone.h"
 #include "node_state.h"
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 using namespace contactx;
 using namespace contactx::law;
@@ -14,7 +11,6 @@ using namespace contactx::law;
 namespace
 {
 using Map = Eigen::Map<const Eigen::VectorXd>;
-
 } // namespace
 
 Interior::Interior(const NodeState& nodes) : gdim(nodes.gdim())

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace contactx;
 using namespace contactx::solve;
@@ -58,6 +59,25 @@ Tangent transported(const Tangent& t, const Tangent& from, const Tangent& to)
     return Tangent::Zero(t.size());
   return t - to.dot(t) / c * (from + to);
 }
+
+/// A scalar and the vector of a node.
+ConeVector joined(double scalar, const std::vector<double>& vectors,
+                  std::size_t i, int g)
+{
+  ConeVector v(1 + g);
+  v << scalar, Map(&vectors[g * i], g);
+  return v;
+}
+
+/// Changes of (b, t) and of (gamma, w) of a node by a step.
+template <class Step>
+std::pair<ConeVector, ConeVector> of_cones(const Interior& in, const Step& step,
+                                           std::size_t i)
+{
+  return {
+      joined(in.by_pressure[i] * step.pressure[i], step.traction, i, in.gdim),
+      joined(step.slip_length[i], step.slip, i, in.gdim)};
+}
 } // namespace
 
 InteriorPoint::InteriorPoint(std::shared_ptr<System> system)
@@ -67,7 +87,6 @@ InteriorPoint::InteriorPoint(std::shared_ptr<System> system)
 
 void InteriorPoint::begin_step(bool is_barred)
 {
-  _is_on = _is_trial = _is_predictor = false;
   _most_closed = 0;
   _count = _iterations = _trial = _poor = 0;
   _changes = {};
@@ -119,11 +138,7 @@ void InteriorPoint::note(std::span<const double> dx)
 {
   if (_is_on or _is_trial or _is_barred or _count > 1)
     return;
-  const mesh::Halo& halo = *_system->halo();
-  std::vector<double> u(std::size_t(halo.num_nodes()) * halo.gdim());
-  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
-    u[i] = -dx[i];
-  halo.forward(std::span(u), halo.gdim());
+  const std::vector<double> u = _system->movement(dx);
   std::array<double, 4> sums{};
   double farthest = 0;
   std::size_t at = _system->num_bulk();
@@ -239,11 +254,9 @@ void InteriorPoint::place()
       if (is_new)
       {
         in.is_on[i] = 1;
-        in.pressure[i]
-            = is_first ? std::max(nodes.pressure(i), _pressure_scale) : 0;
         in.slack[i] = std::max(nodes.gap[i], _gap_scale);
-        if (not is_first)
-          in.pressure[i] = _product / in.slack[i];
+        in.pressure[i] = is_first ? std::max(nodes.pressure(i), _pressure_scale)
+                                  : _product / in.slack[i];
       }
       if (nodes.is_vector())
       {
@@ -296,9 +309,9 @@ void InteriorPoint::place()
         if (is_new)
         {
           w.setZero();
-          in.slip_length[i] = 2 * _gap_scale * in.pressure[i] / in.bound[i];
-          if (not is_first)
-            in.slip_length[i] = 2 * _product / in.bound[i];
+          const double product
+              = is_first ? _gap_scale * in.pressure[i] : _product;
+          in.slip_length[i] = 2 * product / in.bound[i];
         }
         if (not(in.slip_length[i] > w.norm()))
           in.slip_length[i] = w.norm() / boundary_fraction;
@@ -330,11 +343,7 @@ void InteriorPoint::predict()
 std::vector<InteriorPoint::Step>
 InteriorPoint::increments(std::span<const double> dx) const
 {
-  const mesh::Halo& halo = *_system->halo();
-  std::vector<double> u(std::size_t(halo.num_nodes()) * halo.gdim());
-  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
-    u[i] = -dx[i];
-  halo.forward(std::span(u), halo.gdim());
+  const std::vector<double> u = _system->movement(dx);
   std::vector<Step> steps;
   std::size_t at = _system->num_bulk();
   for (const auto& c : _system->contacts())
@@ -429,7 +438,6 @@ InteriorPoint::lengths(const std::vector<Step>& steps) const
     const auto& in = _system->contacts()[k]->nodes()->interior;
     if (not in)
       continue;
-    const int g = in->gdim;
     const Step& step = steps[k];
     for (std::size_t i = 0; i < in->is_on.size(); ++i)
     {
@@ -441,9 +449,7 @@ InteriorPoint::lengths(const std::vector<Step>& steps) const
         dual = std::min(dual, -in->pressure[i] / step.pressure[i]);
       if (not in->has_friction[i])
         continue;
-      ConeVector x(1 + g), y(1 + g);
-      x << in->by_pressure[i] * step.pressure[i], Map(&step.traction[g * i], g);
-      y << step.slip_length[i], Map(&step.slip[g * i], g);
+      const auto [x, y] = of_cones(*in, step, i);
       dual = std::min(
           dual, law::step_to_boundary(law::bound_and_traction(*in, i), x));
       primal = std::min(primal,
@@ -546,9 +552,7 @@ void InteriorPoint::correct(std::span<const double> dx)
       in->product[i] = step.pressure[i] * step.slack[i];
       if (not in->has_friction[i])
         continue;
-      ConeVector x(1 + g), y(1 + g);
-      x << in->by_pressure[i] * step.pressure[i], Map(&step.traction[g * i], g);
-      y << step.slip_length[i], Map(&step.slip[g * i], g);
+      const auto [x, y] = of_cones(*in, step, i);
       MutableMap(&in->correction[(1 + g) * i], 1 + g)
           = law::pair_of(*in, i).correction(x, y);
     }

@@ -356,10 +356,7 @@ double Loop::within_cells(std::span<const double> dx) const
   if (bulk.is_linear())
     return 1;
   const mesh::Halo& halo = *_system->halo();
-  std::vector<double> way(std::size_t(halo.num_nodes()) * halo.gdim());
-  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
-    way[i] = -dx[i];
-  halo.forward(std::span(way), halo.gdim());
+  const std::vector<double> way = _system->movement(dx);
   const double part = mesh::max_step_without_inversion(
       bulk.cells(), bulk.nodes_per_cell(), halo.reference(), halo.now()->u, way,
       halo.gdim(), StepLength::det_fraction_min);

@@ -98,6 +98,15 @@ void System::take(std::span<const double> x)
     }
 }
 
+std::vector<double> System::movement(std::span<const double> dx) const
+{
+  std::vector<double> u(std::size_t(_halo->num_nodes()) * _halo->gdim());
+  for (std::size_t i = 0; i < _num_displacements; ++i)
+    u[i] = -dx[i];
+  _halo->forward(std::span(u), _halo->gdim());
+  return u;
+}
+
 std::span<const double> System::bulk_residual()
 {
   const std::span<const double> u = _bulk->displacements();

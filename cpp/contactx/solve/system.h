@@ -74,6 +74,11 @@ public:
   /// @throws std::invalid_argument on all ranks if it has another size.
   void take(std::span<const double> x);
 
+  /// @brief Displacements of all nodes of this rank that a step brings;
+  /// collective.
+  /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
+  std::vector<double> movement(std::span<const double> dx) const;
+
   /// @brief Forces of the bulk alone, assembled anew only where unknowns of it
   /// have changed (shape=(num_displacements)).
   std::span<const double> bulk_residual();

@@ -75,6 +75,16 @@ struct OnPath : SpringBodies
     }
   }
 
+  /// The slave pressed down and aside, and what `look` shows of it.
+  void begin_pressed(double down, double aside, double friction,
+                     Sliding sliding = Sliding::finite)
+  {
+    press(down, aside);
+    add<NodeToSurface>(law(friction), sliding);
+    begin();
+    look();
+  }
+
   /// Residual of the displacements, over the forces.
   double residual()
   {
@@ -160,10 +170,7 @@ TEST(InteriorPoint, ShowsTheActiveSetOfTheSolution)
       SCOPED_TRACE(std::to_string(dim) + "D, " + std::to_string(friction));
       OnPath found(dim);
       found.bulk->bar = 0.2;
-      found.press(0.2, 0.02);
-      found.add<NodeToSurface>(found.law(friction), Sliding::small);
-      found.begin();
-      found.look();
+      found.begin_pressed(0.2, 0.02, friction, Sliding::small);
       const int iterates = found.solve();
       EXPECT_GT(iterates, 1);
       EXPECT_LE(iterates, 15);
@@ -178,10 +185,7 @@ TEST(InteriorPoint, ShowsTheActiveSetOfTheSolution)
 TEST(InteriorPoint, SlacksAndTractionsStayInsideTheirCones)
 {
   OnPath found(3);
-  found.press(0.1, 0.05);
-  found.add<NodeToSurface>(found.law(0.3));
-  found.begin();
-  found.look();
+  found.begin_pressed(0.1, 0.05, 0.3);
   found.path->start();
   found.update();
   found.path->predict();
@@ -208,15 +212,11 @@ TEST(InteriorPoint, SlacksAndTractionsStayInsideTheirCones)
 TEST(InteriorPoint, ATrialThatChangesMuchIsTakenBackAndOneThatFailsEndsThePath)
 {
   OnPath found(2);
-  found.press(0.2, 0.02);
-  found.add<NodeToSurface>(found.law(0.3));
-  found.begin();
-  found.look();
+  found.begin_pressed(0.2, 0.02, 0.3);
   std::vector<double> before(found.system->size());
   found.system->unknowns(before);
   ASSERT_GT(found.solve(), 0);
-  std::vector<double> at(before.size()), now(before.size());
-  found.system->unknowns(at);
+  std::vector<double> now(before.size());
   EXPECT_FALSE(found.path->is_refused(1, 100));
   EXPECT_TRUE(found.path->is_refused(50, 100));
   found.take(std::vector<double>(before.size(), 1e-3), 1);

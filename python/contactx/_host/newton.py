@@ -99,6 +99,7 @@ class NewtonLoop:
         self._failure, self._is_final = "", False
         self._has_full_steps = self.snes.getLineSearch().getType() == "basic"
         if not self._has_full_steps:
+            # A line search of the user's would have nowhere to go
             self._loop.bar_path()
         self.snes.setFunction(weakly(self._function), self._system.b)
         self._linear.begin_step(self.snes, report)
@@ -190,7 +191,6 @@ class NewtonLoop:
     @keeps_its_error
     def _shorten(self, x: PETSc.Vec, step: PETSc.Vec) -> bool:
         """Shorten a Newton step before the line search; returns whether it may have changed."""
-        # A line search of the user's would have nowhere to go
         if self._loop.corrects(step.array_r):
             self._function(self.snes, x, self._system.b)
             self.snes.getKSP().solve(self._system.b, step)
