@@ -35,6 +35,12 @@ constexpr double doubtful_difference = 0.6;
 /// Nodes in doubt, or that change, over the closed ones, at which an active set
 /// may be that of the solution
 constexpr double few_fraction = 0.02;
+/// Nodes that change, over the closed ones, up to which the active set goes on,
+/// and the iterate from which it may be left. Slender bodies take the same
+/// iterations from 0.1 to 0.3; below 0.3 spheres whose friction is too small to
+/// tell take the path for nothing, below 0.05 the slabs of a dam's face
+constexpr double creep_fraction = 0.3;
+constexpr int first_iterate = 3;
 /// Iterates that a path takes, about. An active set is left for it where it has
 /// more to go
 constexpr int path_cost = 12;
@@ -186,15 +192,16 @@ bool InteriorPoint::begins(std::int64_t changes, std::int64_t closed)
   ++_count;
   _most_closed = std::max(_most_closed, closed);
   const auto now = static_cast<double>(changes);
-  // Changes of the iterate before, or of two before
-  const int apart = std::min(_count - 1, 2);
+  // Changes of the first iterate, but of three before at most
+  const int apart = std::min(_count - 1, static_cast<int>(_changes.size()));
   const double ago = apart > 0 ? static_cast<double>(_changes[apart - 1]) : 0;
-  _changes = {changes, _changes[0]};
-  if (_is_barred or apart == 0 or _most_closed <= nodes_per_iterate * path_cost)
+  _changes = {changes, _changes[0], _changes[1]};
+  if (_is_barred or _count < first_iterate
+      or _most_closed <= nodes_per_iterate * path_cost)
     return false;
   if (_count > path_cost)
     return changes > 0;
-  if (now <= std::max(2.0, few_fraction * static_cast<double>(closed)))
+  if (now <= std::max(2.0, creep_fraction * static_cast<double>(closed)))
     return false;
   // Iterates that are still to go, if changes fall as they have done
   const double rate = ago > 0 ? std::log(now / ago) / apart : 0;

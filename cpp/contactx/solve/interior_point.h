@@ -122,7 +122,7 @@ private:
   bool _is_on = false, _is_trial = false, _is_predictor = false;
   // Numbers of iterates: of the active set, on the path, and of a trial
   int _count = 0, _iterations = 0, _trial = 0;
-  std::array<std::int64_t, 2> _changes{}; // of the last iterates
+  std::array<std::int64_t, 3> _changes{}; // of the last iterates
   bool _has_stepped = false;
   // Of the iterate before
   double _residual = 0, _before_product = 0;
