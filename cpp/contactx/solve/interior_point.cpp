@@ -32,15 +32,10 @@ constexpr double centring_power = 3, success_min = 1e-3;
 /// Difference of a node's indicators, from -1 to 1 at a solution, below which
 /// it is in doubt
 constexpr double doubtful_difference = 0.6;
-/// Nodes in doubt, or that change, over the closed ones, at which an active set
-/// may be that of the solution
+/// Nodes in doubt, or that open and close, over the closed ones, at which an
+/// active set may be that of the solution. Slender bodies, spheres and slabs
+/// take the same iterations from 0.02 to 0.05
 constexpr double few_fraction = 0.02;
-/// Nodes that change, over the closed ones, up to which the active set goes on,
-/// and the iterate from which it may be left. Slender bodies take the same
-/// iterations from 0.1 to 0.3; below 0.3 spheres whose friction is too small to
-/// tell take the path for nothing, below 0.05 the slabs of a dam's face
-constexpr double creep_fraction = 0.3;
-constexpr int first_iterate = 3;
 /// Iterates that a path takes, about. An active set is left for it where it has
 /// more to go
 constexpr int path_cost = 12;
@@ -95,7 +90,8 @@ void InteriorPoint::begin_step(bool is_barred)
 {
   _most_closed = 0;
   _count = _iterations = _trial = _poor = 0;
-  _changes = {};
+  _passed = {};
+  passages();
   _is_barred = is_barred;
   _gap_scale = _pressure_scale = 0;
   _start.resize(_system->size());
@@ -187,23 +183,43 @@ void InteriorPoint::note(std::span<const double> dx)
   }
 }
 
-bool InteriorPoint::begins(std::int64_t changes, std::int64_t closed)
+/// Numbers of nodes that have opened or closed since the last call, and of
+/// closed ones.
+std::array<std::int64_t, 2> InteriorPoint::passages()
+{
+  std::array<std::int64_t, 2> sums{};
+  _is_closed.resize(_system->contacts().size());
+  for (std::size_t k = 0; k < _is_closed.size(); ++k)
+  {
+    const law::NodeState& nodes = *_system->contacts()[k]->nodes();
+    _is_closed[k].resize(nodes.status.size());
+    for (std::size_t i = 0; i < nodes.status.size(); ++i)
+    {
+      const std::int8_t is_closed = nodes.closed(i);
+      sums[0] += is_closed != std::exchange(_is_closed[k][i], is_closed);
+      sums[1] += is_closed;
+    }
+  }
+  return {mesh::total(ranks(), sums[0]), mesh::total(ranks(), sums[1])};
+}
+
+bool InteriorPoint::begins(std::int64_t changes)
 {
   ++_count;
+  const auto [passed, closed] = passages();
   _most_closed = std::max(_most_closed, closed);
-  const auto now = static_cast<double>(changes);
-  // Changes of the first iterate, but of three before at most
-  const int apart = std::min(_count - 1, static_cast<int>(_changes.size()));
-  const double ago = apart > 0 ? static_cast<double>(_changes[apart - 1]) : 0;
-  _changes = {changes, _changes[0], _changes[1]};
-  if (_is_barred or _count < first_iterate
-      or _most_closed <= nodes_per_iterate * path_cost)
+  const auto now = static_cast<double>(passed);
+  // Nodes of the first iterate, but of three before at most
+  const int apart = std::min(_count - 1, static_cast<int>(_passed.size()));
+  const double ago = apart > 0 ? static_cast<double>(_passed[apart - 1]) : 0;
+  _passed = {passed, _passed[0], _passed[1]};
+  if (_is_barred or apart == 0 or _most_closed <= nodes_per_iterate * path_cost)
     return false;
   if (_count > path_cost)
     return changes > 0;
-  if (now <= std::max(2.0, creep_fraction * static_cast<double>(closed)))
+  if (now <= std::max(2.0, few_fraction * static_cast<double>(closed)))
     return false;
-  // Iterates that are still to go, if changes fall as they have done
+  // Iterates that are still to go, if fewer and fewer nodes pass as they do now
   const double rate = ago > 0 ? std::log(now / ago) / apart : 0;
   return rate >= 0 ? ago > 0 : std::log(now) > -path_cost * rate;
 }

@@ -45,7 +45,7 @@ def test_iterations_on_a_slender_beam_do_not_grow_with_its_cells(shape, method, 
         strip = slender.beam(n, shape, method=method, friction=friction)
         counts.append(slender.press(strip, shape).iterations)
     print(counts)
-    assert max(counts) <= 20
+    assert max(counts) <= 22
 
 
 @pytest.mark.parametrize("method", METHODS)
