@@ -119,7 +119,8 @@ Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
   {
     freeze(false);
     const Changes more = update(false);
-    changes = {changes.status + more.status, more.pairs};
+    changes = {changes.status + more.status, more.pairs,
+               changes.contact + more.contact};
   }
   freeze(may_freeze and are_many(changes.status + changes.pairs));
   if (are_many(changes.status))
@@ -150,10 +151,16 @@ Changes ActiveSet::update(bool is_first)
     c->update_gap();
   share(is_first);
   for (const auto& c : _contacts)
+  {
+    const law::NodeState& nodes = *c->nodes();
+    const std::vector<std::int8_t> before = nodes.status;
     changes.status += c->update_status(is_first);
-  std::array sums{changes.status, changes.pairs};
+    for (std::size_t i = 0; i < before.size(); ++i)
+      changes.contact += nodes.closed(i) != (before[i] != law::open);
+  }
+  std::array sums{changes.status, changes.pairs, changes.contact};
   _halo->ranks().reduce(std::span<std::int64_t>(sums), mesh::Reduction::sum);
-  return {sums[0], sums[1]};
+  return {sums[0], sums[1], sums[2]};
 }
 
 void ActiveSet::pair()

@@ -18,8 +18,9 @@ free_body_contact(std::shared_ptr<contact::Contact> contact);
 /// @brief Changes that an update of the active set has made, on all ranks.
 struct Changes
 {
-  std::int64_t status = 0; ///< nodes that changed their status
-  std::int64_t pairs = 0;  ///< nodes in contact that changed their facet
+  std::int64_t status = 0;  ///< nodes that changed their status
+  std::int64_t pairs = 0;   ///< nodes in contact that changed their facet
+  std::int64_t contact = 0; ///< nodes that opened or closed
 };
 
 /// @brief Pairs and status of all contacts of a problem.

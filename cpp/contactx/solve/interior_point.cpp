@@ -91,7 +91,6 @@ void InteriorPoint::begin_step(bool is_barred)
   _most_closed = 0;
   _count = _iterations = _trial = _poor = 0;
   _passed = {};
-  passages();
   _is_barred = is_barred;
   _gap_scale = _pressure_scale = 0;
   _start.resize(_system->size());
@@ -183,40 +182,19 @@ void InteriorPoint::note(std::span<const double> dx)
   }
 }
 
-/// Numbers of nodes that have opened or closed since the last call, and of
-/// closed ones.
-std::array<std::int64_t, 2> InteriorPoint::passages()
-{
-  std::array<std::int64_t, 2> sums{};
-  _is_closed.resize(_system->contacts().size());
-  for (std::size_t k = 0; k < _is_closed.size(); ++k)
-  {
-    const law::NodeState& nodes = *_system->contacts()[k]->nodes();
-    _is_closed[k].resize(nodes.status.size());
-    for (std::size_t i = 0; i < nodes.status.size(); ++i)
-    {
-      const std::int8_t is_closed = nodes.closed(i);
-      sums[0] += is_closed != std::exchange(_is_closed[k][i], is_closed);
-      sums[1] += is_closed;
-    }
-  }
-  return {mesh::total(ranks(), sums[0]), mesh::total(ranks(), sums[1])};
-}
-
-bool InteriorPoint::begins(std::int64_t changes)
+bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
 {
   ++_count;
-  const auto [passed, closed] = passages();
   _most_closed = std::max(_most_closed, closed);
-  const auto now = static_cast<double>(passed);
+  const auto now = static_cast<double>(changes.contact);
   // Nodes of the first iterate, but of three before at most
   const int apart = std::min(_count - 1, static_cast<int>(_passed.size()));
   const double ago = apart > 0 ? static_cast<double>(_passed[apart - 1]) : 0;
-  _passed = {passed, _passed[0], _passed[1]};
+  _passed = {changes.contact, _passed[0], _passed[1]};
   if (_is_barred or apart == 0 or _most_closed <= nodes_per_iterate * path_cost)
     return false;
   if (_count > path_cost)
-    return changes > 0;
+    return changes.status > 0;
   if (now <= std::max(2.0, few_fraction * static_cast<double>(closed)))
     return false;
   // Iterates that are still to go, if fewer and fewer nodes pass as they do now

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "active_set.h"
 #include "system.h"
 #include <array>
 #include <cstdint>
@@ -50,8 +51,9 @@ public:
   void note(std::span<const double> dx);
 
   /// @brief Decide whether the path begins at an iterate of the active set.
-  /// @param[in] changes Number of nodes that changed their status.
-  bool begins(std::int64_t changes);
+  /// @param[in] changes What the active set has changed there.
+  /// @param[in] closed Number of closed nodes.
+  bool begins(const Changes& changes, std::int64_t closed);
 
   /// @brief Go to the path, with the multipliers of the step's start.
   void start();
@@ -114,7 +116,6 @@ private:
   void add(const std::vector<Step>& steps, double primal, double dual);
   std::array<double, 2> lengths(const std::vector<Step>& steps) const;
   std::array<double, 3> means() const;
-  std::array<std::int64_t, 2> passages();
   void judge(const std::vector<Step>& steps);
   void place();
 
@@ -122,9 +123,8 @@ private:
   bool _is_on = false, _is_trial = false, _is_predictor = false;
   // Numbers of iterates: of the active set, on the path, and of a trial
   int _count = 0, _iterations = 0, _trial = 0;
-  // Nodes that opened or closed in the last iterates, and those closed now
+  // Nodes that opened or closed in the last iterates
   std::array<std::int64_t, 3> _passed{};
-  std::vector<std::vector<std::int8_t>> _is_closed;
   bool _has_stepped = false;
   // Of the iterate before
   double _residual = 0, _before_product = 0;

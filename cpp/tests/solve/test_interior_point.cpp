@@ -245,7 +245,7 @@ TEST(InteriorPoint, BeginsWhereTheActiveSetHasMoreToGoThanAPathTakes)
     path.begin_step(false);
     bool does = false;
     for (const int n : changes)
-      does = path.begins(n, closed);
+      does = path.begins({n, 0, n}, closed);
     return does;
   };
   // The rate of 20 nodes in 12 iterates
@@ -254,15 +254,22 @@ TEST(InteriorPoint, BeginsWhereTheActiveSetHasMoreToGoThanAPathTakes)
   EXPECT_TRUE(begins({100, 80}));
   EXPECT_FALSE(begins({100, 60, 36}));
   EXPECT_TRUE(begins({100, 60, 70}));
+  // Over three iterates
+  EXPECT_FALSE(begins({100, 60, 40, 20}));
+  EXPECT_TRUE(begins({100, 60, 30, 12, 30}));
   // Few nodes that change, or that are closed
   EXPECT_FALSE(begins({2, 2}));
   EXPECT_FALSE(begins({30, 30}, 36));
   EXPECT_TRUE(begins({30, 30}, 37));
+  // Nodes that change between stick and slip do not count
+  path.begin_step(false);
+  EXPECT_FALSE(path.begins({100, 0, 0}, 100) or path.begins({100, 0, 0}, 100));
   // Any that change for long
   EXPECT_TRUE(begins({9, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   EXPECT_FALSE(begins({9, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0}));
   path.begin_step(true);
-  EXPECT_FALSE(path.begins(100, 100) or path.begins(100, 100));
+  EXPECT_FALSE(path.begins({100, 0, 100}, 100)
+               or path.begins({100, 0, 100}, 100));
 }
 
 } // namespace
