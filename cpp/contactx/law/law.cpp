@@ -16,14 +16,10 @@ using contactx::law::NodeState;
 
 namespace
 {
-// Tolerances of the friction bound of a node that slips, which starts the next
-// step on it: over its pressure, and over the largest one by the error of
-// linear solves
-constexpr double cone_rel_tol = 1e-10;
-constexpr double solve_rel_tol = 1e-9;
-// The latter of a node that has not slipped in this step: its error is
-// the tolerance of Newton's method
-constexpr double newton_rel_tol = 1e-6;
+// Part of the largest pressure within which the friction of a node that slips
+// is its bound: what Newton's method leaves at the end of a step, which starts
+// the next one, and linear solves within it
+constexpr double bound_rel_tol = 1e-6;
 // Growth of the largest trial friction of a reversal after each cycle of the
 // active set
 constexpr double reach_growth = 1e3;
@@ -47,17 +43,9 @@ std::vector<double> closable_gaps(const NodeState& nodes)
 }
 
 /// Part of the bound on friction that a node which slips may fall short of.
-double edge(const NodeState& nodes, std::size_t i, double bound, double highest)
+double edge(double pressure, double highest)
 {
-  const std::size_t gdim = nodes.gdim();
-  double moved = 0;
-  for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
-    moved += nodes.slip[k] * nodes.slip[k];
-  const bool is_still = nodes.tangential_ratio * nodes.c[i] * std::sqrt(moved)
-                        <= cone_rel_tol * bound;
-  const double left = (is_still ? newton_rel_tol : solve_rel_tol) * highest;
-  const double pressure = nodes.pressure(i);
-  return pressure > 0 ? std::min(cone_rel_tol + left / pressure, 0.5) : 0.5;
+  return pressure > 0 ? std::min(bound_rel_tol * highest / pressure, 0.5) : 0.5;
 }
 
 /// Whether the trial friction of a node exceeds a bound.
@@ -238,7 +226,7 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
     look();
   for (std::size_t i = 0; i < found.bound.size(); ++i)
     if (nodes.status[i] == slip)
-      found.bound[i] *= 1 - edge(nodes, i, found.bound[i], highest);
+      found.bound[i] *= 1 - edge(nodes.pressure(i), highest);
 
   const auto before = nodes.status;
   const auto gap = closable_gaps(nodes);

@@ -47,6 +47,10 @@ constexpr double trial_residual = 1e-2, trial_defect = 0.1;
 /// Mean product of pairs, over the product of their means, at which one is
 /// tried in any case, and then again
 constexpr double trial_level = 1e-6, trial_level_ratio = 1e-3;
+/// Way since the step's start over the shortest one of the active set's
+/// iterates, from which on the displacements are those of the latter: bodies
+/// that nothing held have run away
+constexpr double escape_ratio = 1e2;
 /// Longest part of a step that leads nowhere
 constexpr double short_step = 0.01;
 /// Iterates without progress, and iterates, after which the path is given up
@@ -92,7 +96,8 @@ void InteriorPoint::begin_step(bool is_barred)
   _count = _iterations = _trial = _poor = 0;
   _passed = {};
   _is_barred = is_barred;
-  _gap_scale = _pressure_scale = 0;
+  _gap_scale = _pressure_scale = _last_way = 0;
+  _shortest_way = std::numeric_limits<double>::max();
   _start.resize(_system->size());
   _system->unknowns(_start);
   drop();
@@ -182,6 +187,23 @@ void InteriorPoint::note(std::span<const double> dx)
   }
 }
 
+void InteriorPoint::note(double way)
+{
+  if (_is_on or _is_trial or _is_barred)
+    return;
+  _last_way = way;
+  if (way > _shortest_way)
+    return;
+  _shortest_way = way;
+  _nearest.resize(_system->size());
+  _system->unknowns(_nearest);
+}
+
+bool InteriorPoint::has_run_away() const
+{
+  return _last_way > escape_ratio * _shortest_way;
+}
+
 bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
 {
   ++_count;
@@ -191,10 +213,12 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
   const int apart = std::min(_count - 1, static_cast<int>(_passed.size()));
   const double ago = apart > 0 ? static_cast<double>(_passed[apart - 1]) : 0;
   _passed = {changes.contact, _passed[0], _passed[1]};
-  if (_is_barred or apart == 0 or _most_closed <= nodes_per_iterate * path_cost)
+  if (_is_barred or apart == 0)
     return false;
-  if (_count > path_cost)
+  if (_count > path_cost or has_run_away())
     return changes.status > 0;
+  if (_most_closed <= nodes_per_iterate * path_cost)
+    return false;
   if (now <= std::max(2.0, few_fraction * static_cast<double>(closed)))
     return false;
   // Iterates that are still to go, if fewer and fewer nodes pass as they do now
@@ -217,7 +241,8 @@ void InteriorPoint::start()
   // Displacements have come far; multipliers of a set that is far off may have
   // any size
   std::vector<double> from = _start;
-  std::copy_n(_before.begin(), _system->num_bulk(), from.begin());
+  std::copy_n((has_run_away() ? _nearest : _before).begin(),
+              _system->num_bulk(), from.begin());
   _system->take(from);
   _shown.clear();
   _part = few_fraction;

@@ -50,6 +50,11 @@ public:
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   void note(std::span<const double> dx);
 
+  /// @brief Take note of an iterate of the active set.
+  /// @param[in] way Largest component of what any node has moved by in this
+  /// step.
+  void note(double way);
+
   /// @brief Decide whether the path begins at an iterate of the active set.
   /// @param[in] changes What the active set has changed there.
   /// @param[in] closed Number of closed nodes.
@@ -117,6 +122,7 @@ private:
   std::array<double, 2> lengths(const std::vector<Step>& steps) const;
   std::array<double, 3> means() const;
   void judge(const std::vector<Step>& steps);
+  bool has_run_away() const;
   void place();
 
   std::shared_ptr<System> _system;
@@ -136,7 +142,11 @@ private:
   // Product below which the next trial begins at the latest
   double _level = 0;
   std::vector<double> _start; // unknowns at the step's start
-  std::vector<double> _kept;  // those at the trial
+  // Unknowns of the active set's iterate that is nearest to the step's start,
+  // its way, and that of the last one
+  std::vector<double> _nearest;
+  double _shortest_way = 0, _last_way = 0;
+  std::vector<double> _kept; // those at the trial
   // Unknowns and status where the path was taken
   std::vector<double> _before;
   std::vector<std::vector<std::int8_t>> _status;

@@ -161,6 +161,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
       _path.resume();
       return judge_path(rtol, atol, b);
     }
+    _path.note(max_increment());
     if (not _path.is_trial() and _path.begins(_active_set.changes(), closed))
     {
       _path.start();

@@ -110,7 +110,7 @@ def test_loads_that_nothing_balances_are_named(cell, load, aside, friction):
     with pytest.raises(cx.ConvergenceError, match="cannot be balanced") as info:
         scene.solve()
     # Fewer would not see friction that turns
-    assert 9 <= info.value.report.iterations <= 15
+    assert 9 <= info.value.report.iterations <= 20
     assert not scene.u.x.array.any()
 
 

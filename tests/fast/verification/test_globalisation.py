@@ -12,7 +12,7 @@ from contactx._host.newton import NewtonLoop
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
-from scenes import Blocks, bent, slender
+from scenes import Blocks, bent, ladder, slender
 from scenes.held_sheet import limit
 from scenes.materials import neo_hookean, st_venant_kirchhoff
 from scenes.roller import Roller
@@ -73,6 +73,17 @@ def test_leaves_that_touch_along_their_length_come_apart(method):
     report = bent.leaves(60, method=method)
     assert report.iterations <= 30
     assert report.discarded == 0
+
+
+@pytest.mark.parametrize("degrees", [49, 51, 57, 65, 75])
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ladder_stands(method, degrees):
+    """Active sets throw it off where both ends are close to slip."""
+    assert degrees > ladder.LIMIT
+    report, u = ladder.lean(degrees, method=method)
+    assert report.iterations <= 25
+    assert report.discarded == 0
+    assert np.abs(u.x.array).max() <= 1e-3
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -177,6 +188,7 @@ def test_steps_that_squeeze_cells_are_shortened():
 
 def test_damped_steps_take_over(monkeypatch):
     """Where steps go too far for other reasons than cells."""
+    without_path(monkeypatch)
     roller = ("svk", "surface-to-surface", 0.1)
     monkeypatch.setattr(core.Loop, "limit", limit)
     report = Roller(*roller, n=10).press(0.6)
