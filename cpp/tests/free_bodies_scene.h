@@ -229,6 +229,7 @@ class NodeContact final : public solve::FreeBodyContact
 public:
   bool is_small() const override { return small; }
   bool has_friction() const override { return friction > 0; }
+  double friction_max() const override { return friction; }
   solve::Pairing pairing() const override { return found; }
   std::vector<std::int8_t> status() const override { return kind; }
   std::vector<double> closable_gap() const override { return gap; }

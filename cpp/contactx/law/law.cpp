@@ -7,6 +7,7 @@
 #include "slip_history.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -198,6 +199,13 @@ void Coulomb::bound_interior(NodeState& nodes) const
 std::vector<double> Coulomb::friction(const NodeState& nodes) const
 {
   return bounds(nodes, pressures(nodes)).by_pressure;
+}
+
+double Coulomb::friction_max() const
+{
+  if (_bound)
+    return std::numeric_limits<double>::infinity();
+  return _friction.empty() ? 0 : *std::ranges::max_element(_friction);
 }
 
 std::vector<std::int8_t> Coulomb::has_friction(const NodeState& nodes) const

@@ -124,6 +124,10 @@ public:
   /// or a function of the bound gives what is none.
   std::vector<double> friction(const NodeState& nodes) const;
 
+  /// @brief Largest coefficient of friction on this rank, infinite with another
+  /// bound than Coulomb's.
+  double friction_max() const;
+
   /// @brief Mark the nodes that friction acts on: their bound is not zero
   /// (shape=(n)).
   /// @param[in] nodes Slave nodes.

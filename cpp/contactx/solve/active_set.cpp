@@ -4,6 +4,7 @@
 #include "active_set.h"
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 
 using namespace contactx;
@@ -38,6 +39,12 @@ public:
     return _contact->sliding() == contact::Sliding::small;
   }
   bool has_friction() const override { return _coulomb != nullptr; }
+  double friction_max() const override
+  {
+    return _contact->law()->is_tied() ? std::numeric_limits<double>::infinity()
+           : _coulomb                 ? _coulomb->friction_max()
+                                      : 0;
+  }
   Pairing pairing() const override
   {
     const contact::Master& master = *_contact->master();

@@ -30,6 +30,12 @@ constexpr double idle_force_max = 1e-3;
 // balance, so that springs carry none, and where they do not
 constexpr double spring_ratio_balanced = 1e-6;
 constexpr double spring_ratio_unbalanced = 1e-3;
+// Force along free modes, over that of the loads, that contact forces must
+// leave where they cannot balance it, and work of a force over the largest that
+// it may have, below which it has none
+constexpr double unsupported_rel_tol = 1e-3, work_rel_tol = 1e-9;
+// Forces that are tried: in 3D a cone has more of them than its edges
+constexpr int max_rays = 200;
 // Velocity of a node, over the largest of a rigid motion, that closes a gap
 constexpr double node_speed_min = 1e-6;
 
@@ -398,6 +404,116 @@ bool FreeBodies::loads_balance(const Motions& motions) const
   if (not _bulk->is_linear() or has_friction())
     return false;
   return (motions.N.transpose() * math::column(_loads)).norm() <= _balanced;
+}
+
+/// The force of length 1 inside the cone of any node on any rank that works
+/// most on a motion, along the modes of the bodies; zero if none works.
+std::vector<double> FreeBodies::strongest(const std::vector<Rows>& rows,
+                                          std::span<const double> motion,
+                                          double reach) const
+{
+  double most = 0;
+  std::vector<double> best(motion.size()), row;
+  for (const Rows& some : rows)
+  {
+    const double friction = some.contact->friction_max();
+    const std::vector<double> gap = some.contact->closable_gap();
+    for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      if (not(gap[some.slaves[i]] <= reach))
+        continue;
+      const Vector<3> v = some.by(motion, i), n = some.normal[i],
+                      t = along_surface(n, v);
+      const double slip = std::sqrt(dot(t, t));
+      Vector<3> force = v;
+      if (std::isfinite(friction))
+        for (int k = 0; k < 3; ++k)
+          force[k] = n[k] + (slip > 0 ? friction / slip * t[k] : 0);
+      const double size = std::sqrt(dot(force, force));
+      if (not(size > 0) or not(dot(force, v) > most * size))
+        continue;
+      most = dot(force, v) / size;
+      for (double& f : force)
+        f /= size;
+      some.in_direction(force, i, row);
+      std::ranges::fill(best, 0);
+      for (std::size_t e = some.offsets[i]; e < some.offsets[i + 1]; ++e)
+        for (int p = 0; p < some.m; ++p)
+          best[some.bodies[e] * some.m + p]
+              = row[(e - some.offsets[i]) * some.m + p];
+    }
+  }
+  const double largest = mesh::largest(ranks(), most);
+  const int mine = most == largest ? ranks().size() - ranks().rank() : 0;
+  if (mesh::largest<std::int64_t>(ranks(), mine) != mine)
+    std::ranges::fill(best, 0);
+  ranks().reduce(std::span(best), Reduction::sum);
+  return best;
+}
+
+bool FreeBodies::may_balance(const Forces& forces, double reach) const
+{
+  if (not _modes or not _modes->any_free())
+    return true;
+  const std::span<const double> x
+      = is_linear() ? _bulk->reference() : _bulk->positions();
+  const std::vector<double> loads = along(x, forces.of_bulk(), 1);
+  const std::vector<Rows> rows = this->rows(x);
+  const Eigen::Index m = _modes->modes_per_body();
+  Eigen::Index count = 0;
+  for (const MatrixXd& basis : _modes->free())
+    count += basis.cols();
+  MatrixXd N = MatrixXd::Zero(std::ssize(loads), count);
+  Eigen::Index column = 0;
+  for (Eigen::Index b = 0; const MatrixXd& basis : _modes->free())
+  {
+    N.block(m * b++, column, m, basis.cols()) = basis;
+    column += basis.cols();
+  }
+  const VectorXd needed = N.transpose() * math::column(loads);
+  // Without loads forces that are as small as rounding balance
+  if (needed.norm() <= balance_rel_tol * forces.scale())
+    return true;
+  MatrixXd rays(count, 0);
+  VectorXd shares(0), left = needed;
+  for (int k = 0; k < max_rays; ++k)
+  {
+    if (left.norm() <= unsupported_rel_tol * needed.norm())
+      return true;
+    const VectorXd motion = N * left;
+    const std::vector<double> force
+        = strongest(rows, {motion.data(), std::size_t(motion.size())}, reach);
+    const VectorXd ray = N.transpose() * math::column(force);
+    if (not(ray.dot(left) > work_rel_tol * ray.norm() * left.norm()))
+      return false;
+    rays.conservativeResize(Eigen::NoChange, rays.cols() + 1);
+    rays.rightCols(1) = ray;
+    shares.conservativeResize(rays.cols());
+    shares.tail(1).setZero();
+    while (true)
+    {
+      const VectorXd next = rays.colPivHouseholderQr().solve(needed);
+      double part = 1;
+      for (Eigen::Index i = 0; i < next.size(); ++i)
+        if (next[i] <= 0)
+          part = std::min(part, shares[i] / (shares[i] - next[i]));
+      shares += part * (next - shares);
+      if (part == 1 or not std::isfinite(part))
+        break;
+      // Rays that pull are left out
+      Eigen::Index kept = 0;
+      for (Eigen::Index i = 0; i < shares.size(); ++i)
+        if (next[i] > 0 or shares[i] > work_rel_tol * shares.maxCoeff())
+        {
+          rays.col(kept) = rays.col(i);
+          shares[kept++] = shares[i];
+        }
+      rays.conservativeResize(Eigen::NoChange, kept);
+      shares.conservativeResize(kept);
+    }
+    left = needed - rays * shares;
+  }
+  return true;
 }
 
 std::optional<std::vector<double>> FreeBodies::drift()

@@ -51,6 +51,10 @@ public:
   /// @brief True with Coulomb friction.
   virtual bool has_friction() const = 0;
 
+  /// @brief Largest coefficient of friction, infinite where forces along the
+  /// surface, or ties, are not bounded by one.
+  virtual double friction_max() const = 0;
+
   /// @brief The pairs.
   virtual Pairing pairing() const = 0;
 
@@ -174,6 +178,19 @@ public:
   /// balance.
   bool is_unbalanced() const { return _is_unbalanced; }
 
+  /// @brief Tell whether any forces inside the cones of friction, at slave
+  /// nodes that have a pair, near or far, balance the loads where the bodies
+  /// are now.
+  ///
+  /// Non-negative least squares on the forces along the bodies' free modes,
+  /// whose rays are found one by one: each is the force inside any node's cone
+  /// that works most on the motion that what is left asks for (Lawson and
+  /// Hanson 1974). Where none does, that motion is resisted by nothing.
+  /// Collective.
+  /// @param[in] forces Forces at the iterate.
+  /// @param[in] reach Largest gap of these nodes, length.
+  bool may_balance(const Forces& forces, double reach) const;
+
 private:
   /// Slave nodes of a contact with a pair under rigid motions of the bodies.
   struct Rows;
@@ -208,6 +225,9 @@ private:
   FrictionState friction_state(const Rows& rows, std::size_t n) const;
   double lowest(std::span<const Found> found) const;
   bool loads_balance(const Motions& motions) const;
+  std::vector<double> strongest(const std::vector<Rows>& rows,
+                                std::span<const double> motion,
+                                double reach) const;
   void add_springs(const Motions& motions, std::span<const double> x,
                    std::span<const double> pull,
                    std::span<const double> forces);

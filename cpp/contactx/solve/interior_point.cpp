@@ -32,10 +32,10 @@ constexpr double centring_power = 3, success_min = 1e-3;
 /// Difference of a node's indicators, from -1 to 1 at a solution, below which
 /// it is in doubt
 constexpr double doubtful_difference = 0.6;
-/// Nodes in doubt, or that open and close, over the closed ones, at which an
-/// active set may be that of the solution. Slender bodies, spheres and slabs
-/// take the same iterations from 0.02 to 0.05
-constexpr double few_fraction = 0.02;
+/// Nodes in doubt, or that open and close, over the closed ones, and number of
+/// the latter, at which an active set may be that of the solution. Slender
+/// bodies, spheres and slabs take the same iterations from 0.02 to 0.05
+constexpr double few_fraction = 0.02, few_nodes = 4;
 /// Iterates that a path takes, about. An active set is left for it where it has
 /// more to go
 constexpr int path_cost = 12;
@@ -204,6 +204,12 @@ bool InteriorPoint::has_run_away() const
   return _last_way > escape_ratio * _shortest_way;
 }
 
+double InteriorPoint::reach() const
+{
+  return has_run_away() ? escape_ratio * _shortest_way
+                        : std::numeric_limits<double>::infinity();
+}
+
 bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
 {
   ++_count;
@@ -219,7 +225,7 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
     return changes.status > 0;
   if (_most_closed <= nodes_per_iterate * path_cost)
     return false;
-  if (now <= std::max(2.0, few_fraction * static_cast<double>(closed)))
+  if (now <= std::max(few_nodes, few_fraction * static_cast<double>(closed)))
     return false;
   // Iterates that are still to go, if fewer and fewer nodes pass as they do now
   const double rate = ago > 0 ? std::log(now / ago) / apart : 0;
@@ -233,16 +239,18 @@ void InteriorPoint::start()
   _iterations = _poor = 0;
   _tried = -1;
   _steps.clear();
+  // Displacements have come far; multipliers of a set that is far off may have
+  // any size
   _before.resize(_system->size());
-  _system->unknowns(_before);
+  if (has_run_away())
+    _before = _nearest;
+  else
+    _system->unknowns(_before);
   _status.clear();
   for (const auto& c : _system->contacts())
     _status.push_back(c->nodes()->status);
-  // Displacements have come far; multipliers of a set that is far off may have
-  // any size
   std::vector<double> from = _start;
-  std::copy_n((has_run_away() ? _nearest : _before).begin(),
-              _system->num_bulk(), from.begin());
+  std::copy_n(_before.begin(), _system->num_bulk(), from.begin());
   _system->take(from);
   _shown.clear();
   _part = few_fraction;

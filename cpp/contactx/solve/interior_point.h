@@ -106,6 +106,10 @@ public:
   /// for the rest of the step.
   void give_up();
 
+  /// @brief How far bodies may have to go until contact balances them: not
+  /// farther than iterates that have not run away; any way if none has.
+  double reach() const;
+
   /// @brief Iterates on the path in this step.
   int iterations() const { return _iterations; }
 

@@ -218,7 +218,11 @@ Verdict Loop::judge_path(double rtol, double atol, std::span<double> b)
     _path.give_up();
     ++_version;
     update_active_set(false);
-    return compare(rtol, atol, b) ? Verdict::solution : Verdict::goes_on;
+    if (compare(rtol, atol, b))
+      return Verdict::solution;
+    // Where nothing can balance a body no active set will
+    return _bodies->may_balance(_forces, _path.reach()) ? Verdict::goes_on
+                                                        : Verdict::unbalanced;
   }
   _active_set.pair();
   _path.predict();

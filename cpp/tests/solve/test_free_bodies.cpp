@@ -278,6 +278,43 @@ struct Tower
   std::shared_ptr<NodeContact> upper, lower;
 };
 
+TEST(FreeBodies, ForcesInsideTheConesBalanceABlockOrNot)
+{
+  mesh::OneRank alone;
+  const auto balances = [](int g, double friction, std::vector<double> push,
+                           mesh::Ranks& ranks, double reach = 1)
+  {
+    Block block(g, friction, 0.01, 0.05, &ranks);
+    push.resize(g);
+    push.back() = -1;
+    const FreeBodies free = block.scene.begun();
+    return free.may_balance(block.loads(push), reach);
+  };
+  for (const int g : {2, 3})
+  {
+    // It slides beyond 0.5, and tips over its edge beyond 1
+    EXPECT_TRUE(balances(g, 0.5, {0.49}, alone));
+    EXPECT_FALSE(balances(g, 0.5, {0.51}, alone));
+    EXPECT_TRUE(balances(g, 2, {-0.99}, alone));
+    EXPECT_FALSE(balances(g, 2, {-1.01}, alone));
+    EXPECT_TRUE(balances(g, 0, {}, alone));
+    EXPECT_FALSE(balances(g, 0, {0.01}, alone));
+    // Gaps are 0.05 on one side and 0.06 on the other
+    EXPECT_FALSE(balances(g, 0.5, {}, alone, 0.049));
+    EXPECT_FALSE(balances(g, 0.5, {}, alone, 0.055));
+    EXPECT_TRUE(balances(g, 0.5, {}, alone, 0.061));
+  }
+  // The cone is round
+  EXPECT_TRUE(balances(3, 0.5, {0.35, 0.35}, alone));
+  EXPECT_FALSE(balances(3, 0.5, {0.36, 0.36}, alone));
+  on_ranks(2,
+           [&](mesh::Ranks& ranks)
+           {
+             EXPECT_TRUE(balances(3, 0.5, {0.49}, ranks));
+             EXPECT_FALSE(balances(3, 0.5, {0.51}, ranks));
+           });
+}
+
 TEST(FreeBodies, ATowerOfTwoBlocksComesToRest)
 {
   for (const int g : {2, 3})

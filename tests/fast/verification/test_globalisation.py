@@ -45,7 +45,7 @@ def test_iterations_on_a_slender_beam_do_not_grow_with_its_cells(shape, method, 
         strip = slender.beam(n, shape, method=method, friction=friction)
         counts.append(slender.press(strip, shape).iterations)
     print(counts)
-    assert max(counts) <= 22
+    assert max(counts) <= 24
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -84,6 +84,16 @@ def test_a_ladder_stands(method, degrees):
     assert report.iterations <= 25
     assert report.discarded == 0
     assert np.abs(u.x.array).max() <= 1e-3
+
+
+@pytest.mark.parametrize("degrees", [40, 43])
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ladder_that_slips_is_named(method, degrees):
+    """No forces inside both cones balance its weight."""
+    assert degrees < ladder.LIMIT
+    with pytest.raises(cx.ConvergenceError, match="cannot be balanced") as info:
+        ladder.lean(degrees, method=method)
+    assert info.value.report.iterations <= 30
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
