@@ -119,7 +119,11 @@ class HeldSheet:
 
 
 def limit(loop, step, correction):
-    """In place of ``core.Loop.limit``, which keeps cells from turning inside out as well."""
+    """In place of ``core.Loop.limit``, which keeps cells from turning inside out as well.
+
+    And slacks of the interior point inside their cones: so the active set goes on alone.
+    """
+    loop.bar_path()
     rule = loop.length
     rule.begin(loop.size_of(step), 1.0)
     while rule.has_trial:

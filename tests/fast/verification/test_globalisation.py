@@ -198,7 +198,6 @@ def test_steps_that_squeeze_cells_are_shortened():
 
 def test_damped_steps_take_over(monkeypatch):
     """Where steps go too far for other reasons than cells."""
-    without_path(monkeypatch)
     roller = ("svk", "surface-to-surface", 0.1)
     monkeypatch.setattr(core.Loop, "limit", limit)
     report = Roller(*roller, n=10).press(0.6)

@@ -29,7 +29,7 @@ RAISED = {
     "ball_is_between_nodes": "the rigid Sphere reaches 0.02 deep through a slave facet of size",
     "tips_pass_each_other": "nodes went through the other surface within the step",
     "tool_goes_through": "7 slave nodes and facets went through the rigid Sphere within the step",
-    "cells_are_turned_inside_out": "no step is short enough to lead on: cells would turn inside out",
+    "cells_are_turned_inside_out": "6 cells are turned inside out, the worst with det F = -1.1",
     "checkpoint_is_damaged": "is truncated, or no checkpoint at all",
     "checkpoint_cannot_be_written": "Error: ",
 }
