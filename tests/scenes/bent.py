@@ -15,7 +15,7 @@ import contactx as cx
 import ufl
 from dolfinx import fem, mesh
 
-from scenes.grids import create, grid, middles, outside
+from scenes.grids import chosen, create, grid, middles, outside
 from scenes.materials import st_venant_kirchhoff
 from scenes.problems import make_problem
 from story import displacement
@@ -46,8 +46,8 @@ def cantilever(
     facets = outside(domain)
     at, _ = middles(domain, facets)
     bottom, end = np.isclose(at[:, 1], 0), np.isclose(at[:, 0], LENGTH)
-    values = np.where(bottom, 1, np.where(end, 2, 0)).astype(np.int32)
-    tags = mesh.meshtags(domain, 1, facets[values > 0], values[values > 0])
+    values = np.where(bottom, 1, np.where(end, 2, 0))
+    tags = chosen(domain, facets, values)
     u = displacement(domain)
     V = u.function_space
     moment = YOUNG * THICKNESS**3 / 12 / (RADIUS + THICKNESS / 2)
@@ -81,8 +81,8 @@ def leaves(cells: int, **options: Any) -> cx.Report:
     at, of_cell = middles(domain, facets)
     leaf = (of_cell[:, 1] / LEAF).astype(np.int32)
     top, bottom = np.isclose(at[:, 1], LEAF * (leaf + 1)), np.isclose(at[:, 1], LEAF * leaf)
-    values = np.where(top, 10 + leaf, np.where(bottom, 20 + leaf, 0)).astype(np.int32)
-    tags = mesh.meshtags(domain, 1, facets[values > 0], values[values > 0])
+    values = np.where(top, 10 + leaf, np.where(bottom, 20 + leaf, 0))
+    tags = chosen(domain, facets, values)
     u = fem.Function(fem.functionspace(domain, ("Lagrange", 2, (2,))))
     V = u.function_space
     held, _ = V.sub(1).collapse()

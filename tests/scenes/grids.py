@@ -65,6 +65,12 @@ def tagged(domain: mesh.Mesh, facets: Facets) -> mesh.MeshTags:
     return mesh.meshtags(domain, domain.topology.dim - 1, np.sort(facets), ones)
 
 
+def chosen(domain: mesh.Mesh, facets: Facets, values: npt.ArrayLike) -> mesh.MeshTags:
+    """Tags of facets by their values, without those of 0."""
+    values = np.asarray(values, dtype=np.int32)
+    return mesh.meshtags(domain, domain.topology.dim - 1, facets[values > 0], values[values > 0])
+
+
 def faces(domain: mesh.Mesh, places: Sequence[tuple[int, float]]) -> mesh.MeshTags:
     """Tags of faces across the axes of a box, 1, 2, ... in the order of their places.
 

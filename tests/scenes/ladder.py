@@ -10,9 +10,9 @@ import numpy as np
 
 import contactx as cx
 import ufl
-from dolfinx import fem, mesh
+from dolfinx import fem
 
-from scenes.grids import create, grid, middles, outside
+from scenes.grids import chosen, create, grid, middles, outside
 from scenes.materials import st_venant_kirchhoff
 from scenes.problems import make_problem
 from story import displacement
@@ -41,8 +41,8 @@ def lean(degrees: float, **options: Any) -> tuple[cx.Report, fem.Function]:
     facets = outside(domain)
     at, _ = middles(domain, facets)
     at_floor, at_wall = at[:, 1] < 1.5 * WIDTH, (at[:, 0] < 1.5 * WIDTH) & (at[:, 1] > 5 * WIDTH)
-    values = np.where(at_floor, 1, np.where(at_wall, 2, 0)).astype(np.int32)
-    tags = mesh.meshtags(domain, 1, facets[values > 0], values[values > 0])
+    values = np.where(at_floor, 1, np.where(at_wall, 2, 0))
+    tags = chosen(domain, facets, values)
     u = displacement(domain)
     F = st_venant_kirchhoff(u, YOUNG, 0.0) + WEIGHT * ufl.TestFunction(u.function_space)[1] * ufl.dx
     contacts = [

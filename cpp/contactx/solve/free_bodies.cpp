@@ -142,9 +142,7 @@ bool FreeBodies::has_friction() const
                              { return contact->has_friction(); });
 }
 
-/// Whether all but the active set is linear. Rigid motions are then about the
-/// reference positions: a rotation about the current ones changes gaps and
-/// strains by what the bodies have moved.
+/// Whether all but the active set is linear.
 bool FreeBodies::is_linear() const
 {
   return _bulk->is_linear() and not has_friction()
@@ -152,10 +150,17 @@ bool FreeBodies::is_linear() const
                                  { return contact->is_small(); });
 }
 
+/// Positions that rigid motions are about. Where all is linear these are those
+/// of the reference: a rotation about the current ones changes gaps and strains
+/// by what the bodies have moved.
+std::span<const double> FreeBodies::positions() const
+{
+  return is_linear() ? _bulk->reference() : _bulk->positions();
+}
+
 void FreeBodies::begin_step()
 {
-  const std::span<const double> x
-      = is_linear() ? _bulk->reference() : _bulk->positions();
+  const std::span<const double> x = positions();
   if (_modes)
     _modes->update(*_bulk, x);
   else
@@ -278,8 +283,7 @@ bool FreeBodies::stabilise(const Forces& forces)
   if (not _modes or not _modes->any_free())
     return false;
   const std::span<const double> reference = _bulk->reference();
-  const std::span<const double> x
-      = is_linear() ? reference : _bulk->positions();
+  const std::span<const double> x = positions();
   const std::size_t m = _modes->modes_per_body();
   const std::size_t n
       = _bodies->map().num_owned() * std::size_t(_modes->gdim());
@@ -455,26 +459,15 @@ bool FreeBodies::may_balance(const Forces& forces, double reach) const
 {
   if (not _modes or not _modes->any_free())
     return true;
-  const std::span<const double> x
-      = is_linear() ? _bulk->reference() : _bulk->positions();
+  const std::span<const double> x = positions();
   const std::vector<double> loads = along(x, forces.of_bulk(), 1);
   const std::vector<Rows> rows = this->rows(x);
-  const Eigen::Index m = _modes->modes_per_body();
-  Eigen::Index count = 0;
-  for (const MatrixXd& basis : _modes->free())
-    count += basis.cols();
-  MatrixXd N = MatrixXd::Zero(std::ssize(loads), count);
-  Eigen::Index column = 0;
-  for (Eigen::Index b = 0; const MatrixXd& basis : _modes->free())
-  {
-    N.block(m * b++, column, m, basis.cols()) = basis;
-    column += basis.cols();
-  }
+  const MatrixXd N = free_basis({}, false).N;
   const VectorXd needed = N.transpose() * math::column(loads);
   // Without loads forces that are as small as rounding balance
   if (needed.norm() <= balance_rel_tol * forces.scale())
     return true;
-  MatrixXd rays(count, 0);
+  MatrixXd rays(N.cols(), 0);
   VectorXd shares(0), left = needed;
   for (int k = 0; k < max_rays; ++k)
   {
@@ -498,7 +491,7 @@ bool FreeBodies::may_balance(const Forces& forces, double reach) const
         if (next[i] <= 0)
           part = std::min(part, shares[i] / (shares[i] - next[i]));
       shares += part * (next - shares);
-      if (part == 1 or not std::isfinite(part))
+      if (part == 1)
         break;
       // Rays that pull are left out
       Eigen::Index kept = 0;

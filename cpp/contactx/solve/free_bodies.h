@@ -210,6 +210,7 @@ private:
 
   mesh::Ranks& ranks() const { return _bodies->map().ranks(); }
   bool is_linear() const;
+  std::span<const double> positions() const;
   std::vector<Rows> rows(std::span<const double> x) const;
   std::vector<double> along(std::span<const double> x,
                             std::span<const double> forces, double sign) const;

@@ -187,18 +187,6 @@ void InteriorPoint::note(std::span<const double> dx)
   }
 }
 
-void InteriorPoint::note(double way)
-{
-  if (_is_on or _is_trial or _is_barred)
-    return;
-  _last_way = way;
-  if (way > _shortest_way)
-    return;
-  _shortest_way = way;
-  _nearest.resize(_system->size());
-  _system->unknowns(_nearest);
-}
-
 bool InteriorPoint::has_run_away() const
 {
   return _last_way > escape_ratio * _shortest_way;
@@ -210,7 +198,8 @@ double InteriorPoint::reach() const
                         : std::numeric_limits<double>::infinity();
 }
 
-bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
+bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
+                           double way)
 {
   ++_count;
   _most_closed = std::max(_most_closed, closed);
@@ -219,7 +208,16 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed)
   const int apart = std::min(_count - 1, static_cast<int>(_passed.size()));
   const double ago = apart > 0 ? static_cast<double>(_passed[apart - 1]) : 0;
   _passed = {changes.contact, _passed[0], _passed[1]};
-  if (_is_barred or apart == 0)
+  if (_is_barred)
+    return false;
+  _last_way = way;
+  if (way <= _shortest_way)
+  {
+    _shortest_way = way;
+    _nearest.resize(_system->size());
+    _system->unknowns(_nearest);
+  }
+  if (apart == 0)
     return false;
   if (_count > path_cost or has_run_away())
     return changes.status > 0;

@@ -50,15 +50,12 @@ public:
   /// @param[in] dx Step, which is taken off the unknowns (shape=(size)).
   void note(std::span<const double> dx);
 
-  /// @brief Take note of an iterate of the active set.
-  /// @param[in] way Largest component of what any node has moved by in this
-  /// step.
-  void note(double way);
-
   /// @brief Decide whether the path begins at an iterate of the active set.
   /// @param[in] changes What the active set has changed there.
   /// @param[in] closed Number of closed nodes.
-  bool begins(const Changes& changes, std::int64_t closed);
+  /// @param[in] way Largest component of what any node has moved by in this
+  /// step.
+  bool begins(const Changes& changes, std::int64_t closed, double way);
 
   /// @brief Go to the path, with the multipliers of the step's start.
   void start();

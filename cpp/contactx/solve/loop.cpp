@@ -161,8 +161,8 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
       _path.resume();
       return judge_path(rtol, atol, b);
     }
-    _path.note(max_increment());
-    if (not _path.is_trial() and _path.begins(_active_set.changes(), closed))
+    if (not _path.is_trial()
+        and _path.begins(_active_set.changes(), closed, max_increment()))
     {
       _path.start();
       return judge_path(rtol, atol, b);

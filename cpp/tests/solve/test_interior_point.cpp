@@ -245,7 +245,7 @@ TEST(InteriorPoint, BeginsWhereTheActiveSetHasMoreToGoThanAPathTakes)
     path.begin_step(false);
     bool does = false;
     for (const int n : changes)
-      does = path.begins({n, 0, n}, closed);
+      does = path.begins({n, 0, n}, closed, 1);
     return does;
   };
   // The rate of 20 nodes in 12 iterates
@@ -263,13 +263,14 @@ TEST(InteriorPoint, BeginsWhereTheActiveSetHasMoreToGoThanAPathTakes)
   EXPECT_TRUE(begins({30, 30}, 37));
   // Nodes that change between stick and slip do not count
   path.begin_step(false);
-  EXPECT_FALSE(path.begins({100, 0, 0}, 100) or path.begins({100, 0, 0}, 100));
+  EXPECT_FALSE(path.begins({100, 0, 0}, 100, 1)
+               or path.begins({100, 0, 0}, 100, 1));
   // Any that change for long
   EXPECT_TRUE(begins({9, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   EXPECT_FALSE(begins({9, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0}));
   path.begin_step(true);
-  EXPECT_FALSE(path.begins({100, 0, 100}, 100)
-               or path.begins({100, 0, 100}, 100));
+  EXPECT_FALSE(path.begins({100, 0, 100}, 100, 1)
+               or path.begins({100, 0, 100}, 100, 1));
 }
 
 } // namespace
