@@ -3,6 +3,7 @@
 
 #include "bulk.h"
 #include "master.h"
+#include <contactx/check.h>
 #include <contactx/solve/derivative_check.h>
 #include <contactx/solve/loop.h>
 #include <contactx/solve/not_finite.h>
@@ -20,6 +21,8 @@ using contactx::solve::StepLength;
 void contactx_bindings::newton(py::module_& m)
 {
   py::register_exception<NotFinite>(m, "NotFiniteError", PyExc_ArithmeticError);
+  py::register_exception<contactx::check::Undefined>(m, "UndefinedError",
+                                                     PyExc_ValueError);
   py::class_<System, std::shared_ptr<System>>(m, "System",
                                               "Coupled bulk and contacts")
       .def(py::init(

@@ -110,9 +110,15 @@ Attributes:
       .def_readonly("closed_for_balance", &Report::closed_for_balance)
       .def_readonly("skipped_searches", &Report::skipped_searches);
 
+  py::class_<Attempt>(m, "Attempt", "An attempt at a step")
+      .def_readonly("start", &Attempt::start)
+      .def_readonly("end", &Attempt::end)
+      .def_readonly("ratio", &Attempt::ratio)
+      .def_readonly("budget", &Attempt::budget);
+
   py::class_<StepPlan>(m, "StepPlan", "Load steps, halved where one fails")
-      .def(py::init<std::vector<double>, int, int>(), py::arg("given"),
-           py::arg("max_cuts"), py::arg("easy"))
+      .def(py::init<std::vector<double>, int, std::optional<int>>(),
+           py::arg("given"), py::arg("max_cuts"), py::arg("easy"))
       .def_static("equal", &StepPlan::equal, py::arg("count"), py::arg("t_end"))
       .def("__copy__", [](const StepPlan& self) { return StepPlan(self); })
       .def("__eq__", [](const StepPlan& self, const StepPlan& other)
@@ -124,7 +130,8 @@ Attributes:
       .def_property_readonly("t", &StepPlan::t)
       .def_property_readonly("next", &StepPlan::next)
       .def("accept", &StepPlan::accept, py::arg("iterations"))
-      .def("cut", &StepPlan::cut)
+      .def("attempt", &StepPlan::attempt)
+      .def("cut", &StepPlan::cut, py::arg("iterations"))
       .def_property_readonly("place", [](const StepPlan& self)
                              { return array(self.place()); })
       .def(
@@ -166,6 +173,7 @@ Attributes:
       .def_property_readonly("number", &Problem::number)
       .def_property_readonly("converged", &Problem::converged)
       .def_property_readonly("has_begun", &Problem::has_begun)
+      .def("set_attempt", &Problem::set_attempt, py::arg("attempt"))
       .def("allow_flight", &Problem::allow_flight)
       .def("enter", &Problem::enter, py::arg("call"),
            py::arg("numbers") = std::vector<std::pair<std::string, double>>())

@@ -6,12 +6,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 
 /// @brief Checks of arguments: sizes and numbers. Each throws
 /// std::invalid_argument, which names the argument.
 namespace contactx::check
 {
+/// @brief A function of the user's has no value where the bodies are. An
+/// iterate may have gone where no solution is: a shorter step stays nearer.
+class Undefined : public std::invalid_argument
+{
+public:
+  using std::invalid_argument::invalid_argument;
+};
+
 /// @brief Require a condition.
 /// @param[in] fits Whether it does.
 /// @param[in] message Message of the error if not.

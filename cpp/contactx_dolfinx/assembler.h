@@ -288,10 +288,11 @@ public:
   /// @param[in] contacts State of each contact, see contactx::contact::save.
   /// Functions have the values that they shall have.
   /// @throws std::invalid_argument on all ranks if they do not fit.
-  void take(std::vector<double> start,
+  void take(std::vector<double> start, std::vector<double> before,
             std::vector<std::vector<contactx::contact::Saved>> contacts)
   {
     contactx::problem::Snapshot::State state{.start = std::move(start),
+                                             .before = std::move(before),
                                              .contacts = std::move(contacts)};
     _bulk->read();
     const auto u = _bulk->displacements();

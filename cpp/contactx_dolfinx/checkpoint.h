@@ -103,7 +103,7 @@ public:
   }
 
 private:
-  static constexpr std::int64_t version = 1;
+  static constexpr std::int64_t version = 2;
   // Rows that are read at once
   static constexpr std::int64_t chunk = 1 << 16;
 
@@ -407,6 +407,14 @@ private:
         s.values);
   }
 
+  /// Displacements that the last step has started from: those of now before
+  /// there is one.
+  std::vector<double> before() const
+  {
+    const std::vector<double>& u = halo().before();
+    return u.empty() ? owned(halo().start()->u) : u;
+  }
+
   void write_state(const File& file, const StepPlan* plan) const
   {
     file.write_same("format", std::vector<std::int64_t>{version});
@@ -418,6 +426,7 @@ private:
     const Rows nodes = node_rows();
     file.write(nodes, "nodes", identity());
     file.write(nodes, "start", owned(halo().start()->u));
+    file.write(nodes, "before", before());
     for (const auto& [name, f] : _functions)
       file.write(f.rows, name, values_of(f));
     for (std::size_t k = 0; k < contacts().size(); ++k)
@@ -451,6 +460,8 @@ private:
     }
     std::vector<double> start
         = file.read(node_rows(), "start", identity().size());
+    std::vector<double> before
+        = file.read(node_rows(), "before", identity().size());
     std::vector<std::vector<contactx::contact::Saved>> states;
     for (std::size_t k = 0; k < contacts().size(); ++k)
     {
@@ -477,7 +488,7 @@ private:
     if (plan)
       place.load(file.read_same<double>("plan/given"),
                  file.read_same<double>("plan/place"));
-    take(values, std::move(start), std::move(states));
+    take(values, std::move(start), std::move(before), std::move(states));
     if (plan)
       *plan = place;
   }
@@ -501,7 +512,7 @@ private:
   /// Takes functions and contacts; what was before stays where these do not
   /// fit.
   void take(const std::map<std::string, std::vector<double>>& values,
-            std::vector<double> start,
+            std::vector<double> start, std::vector<double> last,
             std::vector<std::vector<contactx::contact::Saved>> contacts)
   {
     const contactx::problem::Snapshot before = _assembler->problem().snapshot();
@@ -524,7 +535,7 @@ private:
           });
     try
     {
-      _assembler->take(std::move(start), std::move(contacts));
+      _assembler->take(std::move(start), std::move(last), std::move(contacts));
     }
     catch (...)
     {

@@ -168,14 +168,14 @@ class ContactDynamics(ContactProblem):
         self._dt.value = float(dt)
         self._has_dt = True
 
-    def set_interval(self, start: float, end: float) -> None:
-        """Take the time that the next step goes over; LoadSteps calls this.
+    def set_attempt(self, attempt: core.Attempt) -> None:
+        """Take the time that the next step goes over, and what it may cost; LoadSteps calls this.
 
         Args:
-            start: Time at its start.
-            end: Time at its end.
+            attempt: The attempt.
         """
-        self.dt = end - start
+        super().set_attempt(attempt)
+        self.dt = attempt.end - attempt.start
 
     @property
     def beside(self) -> list[fem.Function]:

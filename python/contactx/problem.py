@@ -195,25 +195,28 @@ class ContactProblem:
                 interrupts.come()
             except BaseException as error:
                 interrupts.wait()
+                has_begun = assembler.core.has_begun
                 assembler.restore()
                 self._newton.reset()
                 # An error inside PETSc comes back as the cause of one of PETSc, or without it
                 cause = self._newton.take_error() or error.__cause__
                 if isinstance(error, PETSc.Error) and cause is not None:
                     error = cause
-                if isinstance(error, NotFiniteError):
+                # Where the step starts an undefined function is no fault of an iterate
+                is_undefined = isinstance(error, core.UndefinedError) and has_begun
+                if isinstance(error, NotFiniteError) or is_undefined:
                     self.report.reason = str(error)
                     error = ConvergenceError(self.report.reason, self.report)
                 raise error from error.__cause__
         return self.u
 
-    def set_interval(self, start: float, end: float) -> None:
-        """Take the t that the next step goes over; LoadSteps calls this.
+    def set_attempt(self, attempt: core.Attempt) -> None:
+        """Take what the next solve is an attempt at; LoadSteps calls this.
 
         Args:
-            start: t at its start.
-            end: t at its end.
+            attempt: The t that it goes over, and what it may cost.
         """
+        self.assembler.core.set_attempt(attempt)
 
     def _attempt(self, damped: bool, interrupts: Interrupts) -> core.Outcome:
         """Attempt the step, with damped steps once full ones have failed."""

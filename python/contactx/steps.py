@@ -75,7 +75,7 @@ class LoadSteps:
         restart: str | Path | None = None,
         t_end: float | None = None,
         max_cuts: int = 6,
-        easy: int = 10,
+        easy: int | None = None,
         progress: bool = True,
     ):
         """Create the steps; nothing is solved before the loop starts.
@@ -215,7 +215,7 @@ class LoadSteps:
                         show(self.t, text)
                         self._update(plan.next)
                     updated = True
-                    self._problem.set_interval(self.t, plan.next)
+                    self._problem.set_attempt(plan.attempt())
                     self._problem.solve()
                     interrupts.wait()
                     report = self._problem.report
@@ -228,7 +228,8 @@ class LoadSteps:
                     interrupts.wait()
                     before.restore()
                     end = plan.next
-                    if not plan.cut():
+                    spent = error.report.iterations + error.report.discarded
+                    if not plan.cut(spent):
                         error.report.discarded += discarded
                         error.add_note(
                             f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
@@ -238,7 +239,7 @@ class LoadSteps:
                         interrupts.allow()
                         self._update_again(error)
                         raise
-                    discarded += error.report.iterations + error.report.discarded
+                    discarded += spent
                     cuts += 1
                     continue
                 except BaseException as error:
@@ -373,7 +374,7 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def make_plan(
-    steps: int | Sequence[float], max_cuts: int, easy: int, t_end: float | None = None
+    steps: int | Sequence[float], max_cuts: int, easy: int | None = None, t_end: float | None = None
 ) -> core.StepPlan:
     """Make a plan of what a user gives.
 
@@ -394,7 +395,7 @@ def make_plan(
             raise ValueError(f"t_end is {t_end}: give a finite number above 0")
     end = 1.0 if t_end is None else float(t_end)
     max_cuts = _integer("max_cuts", max_cuts, 0, 40)
-    easy = _integer("easy", easy, 0)
+    easy = None if easy is None else _integer("easy", easy, 0)
     if np.ndim(steps) == 0:
         n = _integer("steps", steps, 1)
         return core.StepPlan(core.StepPlan.equal(n, end), max_cuts, easy)

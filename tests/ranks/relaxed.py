@@ -70,6 +70,9 @@ class Relaxed(cx.ContactProblem):
         self._step(self.u, 0)
         return self.u
 
+    def set_attempt(self, attempt: Any) -> None:
+        """Costs nothing."""
+
     def commit(self) -> None:
         """What is remembered depends on all steps so far."""
         for k, function in enumerate(self.history, start=1):

@@ -47,7 +47,7 @@ NODES = "node-to-surface"
 def clip() -> Iterator[cx.ContactProblem]:
     """Tips that are far apart along the boundary come together."""
     clip = Clip(0.2, friction=0.2, method=NODES)
-    for load in (0.5, 2.0):
+    for load in (0.5, 1.0, 1.5, 2.0):
         clip.press(load * CLOSING)
         clip.problem.solve()
         yield clip.problem

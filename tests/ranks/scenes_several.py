@@ -161,7 +161,7 @@ def cut() -> Iterator[cx.ContactProblem]:
     scene = Sheared()
     for _ in scene.steps(1):
         yield scene.problem
-    assert scene.calls == [1.0, 0.5, 1.0]
+    assert scene.calls == [1.0, 0.5, 1.0, 0.75, 1.0]
 
 
 def valley() -> Iterator[cx.ContactProblem]:

@@ -226,6 +226,7 @@ void Contact::find_free()
 void Contact::begin_step()
 {
   _skipped_searches = 0;
+  _multiplier = _nodes->multiplier;
   _law->begin_step();
   _master->rebuild();
   freeze(false);
@@ -271,6 +272,7 @@ void Contact::turn_tractions()
 void Contact::accept()
 {
   take_start();
+  _nodes->before = _multiplier;
   const std::vector<double> front = _front, area = _nodes->area;
   find_front();
   if (mesh::anywhere(_halo->ranks(), front != _front))

@@ -310,8 +310,9 @@ private:
   // The last is the sum of these and of what smooth surfaces rise
   std::vector<double> _given, _adjusted, _offset;
   std::vector<double> _front;
-  std::vector<double> _rest;      // (n, gdim), in the reference configuration
-  std::vector<std::int8_t> _free; // displacements of all nodes
+  std::vector<double> _rest;       // (n, gdim), in the reference configuration
+  std::vector<std::int8_t> _free;  // displacements of all nodes
+  std::vector<double> _multiplier; // at the step's start
   std::vector<std::int8_t> _touched, _had_master, _is_left_out;
   std::vector<double> _filler; // areas of slave nodes that have none
   // Configuration and version at which gaps were evaluated

@@ -21,6 +21,7 @@ template <class Nodes, class Use>
 void for_each_lasting(Nodes& nodes, Use use)
 {
   use("multiplier", nodes.size(), nodes.multiplier);
+  use("multiplier before", nodes.size(), nodes.before);
   use("status", 0, nodes.status);
   use("gap", 0, nodes.gap);
   use("immobile", 0, nodes.immobile);

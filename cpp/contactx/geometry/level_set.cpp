@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "level_set.h"
+#include "../check.h"
 #include "../math/matrix.h"
 #include "../math/scales.h"
 #include "meeting.h"
@@ -18,8 +19,8 @@ using Eigen::Vector3d;
 
 namespace
 {
-void check(const std::vector<double>& values, std::size_t size,
-           const char* name)
+void require_values(const std::vector<double>& values, std::size_t size,
+                    const char* name)
 {
   if (values.size() != size)
     throw std::invalid_argument(std::string(name) + " of a LevelSet gave "
@@ -252,11 +253,12 @@ LevelValues LevelSet::values(std::span<const double> x, int gdim,
   const std::size_t n = x.size() / gdim;
   LevelValues at = _f(x, gdim, order);
   const std::size_t faces = std::max<std::size_t>(1, at.value.size() / n);
-  check(at.value, faces * n, "the function");
+  require_values(at.value, faces * n, "the function");
   if (order > 0)
-    check(at.gradient, faces * n * gdim, "the gradient");
+    require_values(at.gradient, faces * n * gdim, "the gradient");
   if (order > 1 and not at.hessian.empty())
-    check(at.hessian, faces * n * gdim * gdim, "the second derivative");
+    require_values(at.hessian, faces * n * gdim * gdim,
+                   "the second derivative");
   return at;
 }
 
@@ -367,7 +369,7 @@ void LevelSet::evaluate(std::span<const double> x, int gdim, Geometry& at)
         = turn.curvature.topLeftCorner(gdim, gdim);
   }
   if (bad > 0)
-    throw std::invalid_argument(
+    throw check::Undefined(
         "the function of a LevelSet or its gradient is not finite, or the "
         "gradient zero, at "
         + std::to_string(bad) + " slave nodes, first at "
@@ -392,7 +394,7 @@ std::vector<double> LevelSet::velocity(std::span<const double> x,
                                        int gdim) const
 {
   std::vector<double> v = _velocity->values(x, gdim);
-  check(v, x.size(), "the velocity");
+  require_values(v, x.size(), "the velocity");
   const auto bad = std::ranges::find_if(
       v, [](double component) { return not std::isfinite(component); });
   if (bad != v.end())

@@ -61,7 +61,7 @@ public:
 
   using Obstacle::evaluate;
   /// @copydoc Obstacle::evaluate
-  /// @throws std::invalid_argument if the function or its gradient is not
+  /// @throws check::Undefined if the function or its gradient is not
   /// finite or its gradient zero at a point.
   void evaluate(std::span<const double> x, int gdim, Geometry& at) override;
   /// @copydoc Obstacle::placement

@@ -32,6 +32,7 @@ NodeState::NodeState(std::int32_t num_nodes, int gdim, bool is_vector,
   const std::size_t n = checked(num_nodes, gdim);
   const std::size_t rows = is_vector ? n : 0;
   multiplier.assign(n * _size, 0.0);
+  before.assign(n * _size, 0.0);
   area.assign(n, 0.0);
   status.assign(n, law::open);
   gap.assign(n, std::numeric_limits<double>::quiet_NaN());

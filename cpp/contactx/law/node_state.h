@@ -53,6 +53,8 @@ public:
 
   /// Multiplier, force/area: pressure or traction (shape=(n, size))
   std::vector<double> multiplier;
+  /// Multiplier that the last accepted step has started from (shape=(n, size))
+  std::vector<double> before;
   /// Reference area (shape=(n))
   std::vector<double> area;
   /// Status, see Status (shape=(n))

@@ -77,6 +77,18 @@ std::shared_ptr<const Configuration> Halo::now() const
   return _now;
 }
 
+void Halo::accept()
+{
+  // Each contact calls this
+  const auto next = now();
+  if (next == _start)
+    return;
+  if (_start)
+    _before.assign(_start->u.begin(),
+                   _start->u.begin() + std::ptrdiff_t(_num_owned) * _gdim);
+  _start = next;
+}
+
 void Halo::set_start(std::span<const double> u)
 {
   const std::size_t owned = std::size_t(_num_owned) * _gdim;

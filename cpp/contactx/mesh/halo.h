@@ -117,8 +117,16 @@ public:
   /// reference before the first one.
   const std::shared_ptr<const Configuration>& start() const { return _start; }
 
+  /// @brief Displacements of owned nodes that the last accepted step has
+  /// started from (shape=(num_owned, gdim)); empty before there is one.
+  const std::vector<double>& before() const { return _before; }
+
+  /// @brief Take other displacements of owned nodes for these.
+  /// @param[in] u Displacements (shape=(num_owned, gdim)).
+  void set_before(std::vector<double> u) { _before = std::move(u); }
+
   /// @brief Take the configuration of now as the start of the next step.
-  void accept() { _start = now(); }
+  void accept();
 
   /// @brief Take another start of the step; all ranks must take part.
   /// @param[in] u Displacements, of which the rows of owned nodes count
@@ -178,6 +186,7 @@ private:
   std::vector<std::int32_t> _owners;
   std::vector<double> _reference;
   std::shared_ptr<const Configuration> _start;
+  std::vector<double> _before;
   mutable std::shared_ptr<const Configuration> _now;
   // Nodes in the order of their numbers
   std::vector<std::int32_t> _order;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "ranks.h"
+#include "../check.h"
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
@@ -29,16 +30,23 @@ void Ranks::agree(const std::function<void()>& work)
   }
   std::exception_ptr error;
   std::string text;
-  bool is_argument = false;
+  // What kind of error: 0 another, 1 of an argument, 2 of an undefined function
+  char kind = '0';
   try
   {
     work();
+  }
+  catch (const check::Undefined& e)
+  {
+    error = std::current_exception();
+    text = e.what();
+    kind = '2';
   }
   catch (const std::invalid_argument& e)
   {
     error = std::current_exception();
     text = e.what();
-    is_argument = true;
+    kind = '1';
   }
   catch (const std::exception& e)
   {
@@ -56,7 +64,7 @@ void Ranks::agree(const std::function<void()>& work)
   Messages out;
   if (rank() == first)
   {
-    const std::string message = (is_argument ? "1" : "0") + text;
+    const std::string message = kind + text;
     for (int r = 0; r < size(); ++r)
       if (r != first)
         pack(out[r], std::span<const char>(message));
@@ -67,6 +75,8 @@ void Ranks::agree(const std::function<void()>& work)
   std::span<const std::byte> bytes = in.at(first);
   const auto letters = unpack<char>(bytes, bytes.size());
   const std::string theirs(letters.begin() + 1, letters.end());
+  if (letters[0] == '2')
+    throw check::Undefined(theirs);
   if (letters[0] == '1')
     throw std::invalid_argument(theirs);
   throw std::runtime_error(theirs);

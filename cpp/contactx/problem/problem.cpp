@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "problem.h"
+#include "../check.h"
 #include "../law/law.h"
 #include "../mesh/extent.h"
 #include "../mesh/found_nodes.h"
@@ -177,6 +178,16 @@ void Problem::solve(LinearSolver& solver, const Tolerances& tolerances)
   {
     reason = error.what();
   }
+  catch (const check::Undefined& error)
+  {
+    // Where the step starts it is no fault of an iterate
+    reason = error.what();
+    if (not _has_begun)
+    {
+      restore();
+      throw;
+    }
+  }
   catch (...)
   {
     restore();
@@ -219,6 +230,7 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
     try
     {
       set(t);
+      set_attempt(attempted.attempt());
       is_set = true;
       solve(solver, tolerances);
       break;
@@ -227,7 +239,7 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
     {
       before.restore();
       discarded += _report.discarded + _number;
-      if (attempted.cut())
+      if (attempted.cut(_report.discarded + _number))
         continue;
       const std::string also = set_back();
       throw ConvergenceError(
@@ -321,6 +333,7 @@ void Problem::prepare()
 {
   _before.reset();
   _has_begun = false;
+  _attempt = std::exchange(_next, {});
   _system->bulk()->read();
   if (_before_step)
     _before_step();
@@ -330,6 +343,7 @@ void Problem::prepare()
   check_kept();
   check_drag();
   _before.emplace(snapshot());
+  _increment = extrapolated();
 }
 
 void Problem::check_finite()
@@ -457,7 +471,36 @@ void Problem::start(bool damped)
   _audit->begin_step();
   const Timer timer(_report, "settle");
   _loop.settle_first();
+  if (_increment and not damped)
+    _loop.predict(*_increment);
   _has_begun = true;
+}
+
+/// What the last step would add to the unknowns if it went on, multipliers in
+/// units of their own; none where this one does not follow it.
+std::optional<std::vector<double>> Problem::extrapolated()
+{
+  if (not _attempt or not(_attempt->ratio > 0) or _may_fly)
+    return {};
+  const auto now = _system->bulk()->displacements();
+  const std::vector<double>& before = _halo->before();
+  // Users may have changed them since
+  if (mesh::anywhere(
+          _halo->ranks(),
+          before.size() != now.size()
+              or (not _end.empty() and not std::ranges::equal(now, _end))))
+    return {};
+  std::vector<double> x(_system->size());
+  for (std::size_t i = 0; i < now.size(); ++i)
+    x[i] = _attempt->ratio * (now[i] - before[i]);
+  std::size_t at = _system->num_bulk();
+  for (const auto& contact : _system->contacts())
+  {
+    const law::NodeState& nodes = *contact->nodes();
+    for (std::size_t i = 0; i < nodes.before.size(); ++i)
+      x[at++] = _attempt->ratio * (nodes.multiplier[i] - nodes.before[i]);
+  }
+  return x;
 }
 
 void Problem::read()
@@ -502,6 +545,10 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
     if (_refuses)
       failure = join(_report.audit.faults, "; ");
   }
+  const bool is_costly = verdict == Verdict::goes_on and _attempt
+                         and _attempt->budget and _number >= *_attempt->budget;
+  if (is_costly)
+    failure = no_convergence(std::to_string(_number), "max_it");
   // Shorter steps may do better where these have made no progress
   const bool is_slow
       = verdict == Verdict::not_finite or verdict == Verdict::stuck;
@@ -576,6 +623,8 @@ void Problem::accept()
   check_drag();
   check_refusal();
   _report.converged = true;
+  const auto u = _system->bulk()->displacements();
+  _end.assign(u.begin(), u.end());
   _loop.accept();
   _has_modes = true;
   for (const auto& contact : _system->contacts())
@@ -762,11 +811,9 @@ void Problem::find_rigid_modes()
 
 bool Problem::damping_may_help() const
 {
-  const bool is_curved
-      = not _system->bulk()->is_linear()
-        or std::ranges::any_of(_system->contacts(), [](const auto& contact)
-                               { return contact->updates_kinematics(); });
-  return is_curved and not(_found and _found->is_final);
+  const bool is_cut_instead = _attempt and _attempt->budget;
+  return _loop.is_curved() and not is_cut_instead
+         and not(_found and _found->is_final);
 }
 
 std::string Problem::why_slow(std::span<const double> direction)

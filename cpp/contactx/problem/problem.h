@@ -178,6 +178,13 @@ public:
   /// may leave one another for good.
   void allow_flight() { _may_fly = true; }
 
+  /// @brief Take what the next step is an attempt at. Where it goes on from the
+  /// step before, it starts from an extrapolation of that one, see
+  /// solve::Loop::predict. Where a shorter one may follow, it ends once that is
+  /// cheaper, and is not repeated with damped steps.
+  /// @param[in] attempt The attempt.
+  void set_attempt(const Attempt& attempt) { _next = attempt; }
+
   /// @brief Call a function where a step is prepared, before its state is
   /// checked and saved.
   /// @param[in] function The function. All ranks call it.
@@ -338,6 +345,7 @@ private:
   void check_kept();
   void check_drag();
   void check_refusal();
+  std::optional<std::vector<double>> extrapolated();
   AuditReport audit();
   std::string warning_of(std::size_t contact);
   void complete();
@@ -352,6 +360,12 @@ private:
   std::function<std::string()> _before_accept;
   std::optional<audit::Audit> _audit;
   double _size; // of the scene
+  // What the next step and that of now are attempts at, if it is known
+  std::optional<Attempt> _next, _attempt;
+  // Displacements at the end of the last step, and what it would add to the
+  // unknowns if it went on, multipliers in units of their own
+  std::vector<double> _end;
+  std::optional<std::vector<double>> _increment;
   std::optional<Snapshot> _before;
   Report _report;
   std::optional<Settled> _found;

@@ -19,6 +19,7 @@ Snapshot::Snapshot(std::shared_ptr<solve::System> system,
   const auto start = _system->halo()->start();
   _state.start.assign(start->u.begin(),
                       start->u.begin() + std::ptrdiff_t(u.size()));
+  _state.before = _system->halo()->before();
   if (solve::Fields* fields = bulk.fields())
   {
     const auto values = fields->values();
@@ -44,6 +45,7 @@ void Snapshot::restore() const
   if (solve::Fields* fields = bulk.fields())
     fields->set(_state.fields);
   _system->halo()->set_start(_state.start);
+  _system->halo()->set_before(_state.before);
   for (std::size_t k = 0; k < _state.contacts.size(); ++k)
     contact::load(*_system->contacts()[k], _state.contacts[k]);
   for (std::size_t k = 0; k < _copies.size(); ++k)

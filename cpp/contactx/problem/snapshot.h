@@ -18,7 +18,9 @@ public:
   struct State
   {
     std::vector<double> displacements; ///< those of solve::Bulk
-    std::vector<double> start;  ///< displacements of the step's start, likewise
+    std::vector<double> start; ///< displacements of the step's start, likewise
+    /// Those of the last step's start, likewise; empty before there is one
+    std::vector<double> before;
     std::vector<double> fields; ///< those of solve::Fields
     /// Those of each contact, see contact::save
     std::vector<std::vector<contact::Saved>> contacts;

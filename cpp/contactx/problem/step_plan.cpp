@@ -11,13 +11,22 @@
 using namespace contactx;
 using namespace contactx::problem;
 
-StepPlan::StepPlan(std::vector<double> given, int max_cuts, int easy)
+namespace
+{
+/// Linear solves after which a step is cut: this many times those of the step
+/// before it, and no fewer than these. Sheets that are bent and drawn take the
+/// same, within a tenth, for 2 to 5 times and 10 to 24 solves
+constexpr int budget_ratio = 4, least_budget = 16;
+} // namespace
+
+StepPlan::StepPlan(std::vector<double> given, int max_cuts,
+                   std::optional<int> easy)
     : _given(std::move(given)), _max_cuts(max_cuts), _easy(easy)
 {
   check::require(not _given.empty(), "steps must have at least one t");
   check::require(0 <= max_cuts and max_cuts <= 40,
                  "max_cuts must be from 0 to 40");
-  check::require(easy >= 0, "easy must be at least 0");
+  check::require(not easy or *easy >= 0, "easy must be at least 0");
   double before = 0;
   for (const double t : _given)
   {
@@ -38,10 +47,26 @@ std::vector<double> StepPlan::equal(int count, double t_end)
   return given;
 }
 
+Attempt StepPlan::attempt() const
+{
+  Attempt attempt{t(), next(), 0, {}};
+  if (_length > 0)
+    attempt.ratio = (attempt.end - attempt.start) / _length;
+  // The first step has nothing to be measured against
+  if (shorter() and _cost > 0)
+    attempt.budget = std::max(least_budget, budget_ratio * _cost);
+  return attempt;
+}
+
 void StepPlan::accept(int iterations)
 {
   const double end = next(), part = share();
-  if (iterations <= _easy and not _has_failed)
+  _length = end - t();
+  _cost = iterations;
+  _debt = std::max(_debt - iterations, 0);
+  const bool grows
+      = _easy ? iterations <= *_easy and not _has_failed : _debt == 0;
+  if (grows)
     _cuts = std::max(_cuts - 1, 0);
   _has_failed = false;
   _done = part;
@@ -52,29 +77,43 @@ void StepPlan::accept(int iterations)
   _done = 0;
 }
 
-bool StepPlan::cut()
+/// How often the step that has failed is to be halved; nothing if it may not
+/// be.
+std::optional<int> StepPlan::shorter() const
 {
   int cuts = _cuts + 1;
   // The rest of a given step may be shorter than what was to be attempted
   while (_done + std::ldexp(1.0, -cuts) >= 1)
     ++cuts;
-  if (cuts > _max_cuts)
+  return cuts > _max_cuts ? std::nullopt : std::optional(cuts);
+}
+
+bool StepPlan::cut(int iterations)
+{
+  const std::optional<int> cuts = shorter();
+  if (not cuts)
     return false;
-  _cuts = cuts;
+  _cuts = *cuts;
   _has_failed = true;
+  _debt = iterations;
   return true;
 }
 
 std::vector<double> StepPlan::place() const
 {
-  return {static_cast<double>(_number), _start, _done,
-          static_cast<double>(_cuts)};
+  return {static_cast<double>(_number),
+          _start,
+          _done,
+          static_cast<double>(_cuts),
+          static_cast<double>(_debt),
+          static_cast<double>(_cost),
+          _length};
 }
 
 void StepPlan::load(std::span<const double> given,
                     std::span<const double> place)
 {
-  check::require(place.size() == 4, "place must have four numbers");
+  check::require(place.size() == 7, "place must have seven numbers");
   StepPlan saved({given.begin(), given.end()}, _max_cuts, _easy);
   saved._number = static_cast<std::size_t>(place[0]);
   check::require(saved._number <= saved._given.size(),
@@ -82,6 +121,9 @@ void StepPlan::load(std::span<const double> given,
   saved._start = place[1];
   saved._done = place[2];
   saved._cuts = static_cast<int>(place[3]);
+  saved._debt = static_cast<int>(place[4]);
+  saved._cost = static_cast<int>(place[5]);
+  saved._length = place[6];
   if (saved._given != _given)
   {
     const double t = saved.t();
@@ -90,9 +132,11 @@ void StepPlan::load(std::span<const double> given,
                                   + ", beyond the last given t = "
                                   + number_text(_given.back(), 6));
     const auto after = std::ranges::upper_bound(_given, t);
+    const double length = saved._length;
     saved = StepPlan(_given, _max_cuts, _easy);
     saved._number = after - _given.begin();
     saved._start = t;
+    saved._length = length;
   }
   *this = std::move(saved);
 }

@@ -3,6 +3,7 @@
 
 #include "interior_point.h"
 #include "../law/cone.h"
+#include "../mesh/extent.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,8 +23,12 @@ using Tangent = Eigen::VectorXd;
 
 /// Part of the way to the boundary of the cones that a step takes
 constexpr double boundary_fraction = 0.99;
-/// Largest gap scale from the movement of a step's first solves, over that
+/// Gap scale from the movement of a step's first solves, over that; at most the
+/// scene's extent
 constexpr double movement_fraction = 0.3;
+/// Gap of closed nodes, over the scale of gaps, from which on the work to close
+/// them tells the scale of pressures
+constexpr double told_gap = 1e-3;
 /// Pressures and tractions at the start, over the scale and the bound
 constexpr double traction_fraction = 0.5;
 /// Power of the affine step's success that the corrector aims at, and its
@@ -51,6 +56,9 @@ constexpr double trial_level = 1e-6, trial_level_ratio = 1e-3;
 /// iterates, from which on the displacements are those of the latter: bodies
 /// that nothing held have run away
 constexpr double escape_ratio = 1e2;
+/// Forces that nothing holds at the active set's iterate, over those at the
+/// step's start, from which on the displacements are those of the latter
+constexpr double residual_ratio = 1e2;
 /// Longest part of a step that leads nowhere
 constexpr double short_step = 0.01;
 /// Iterates without progress, and iterates, after which the path is given up
@@ -86,7 +94,11 @@ std::pair<ConeVector, ConeVector> of_cones(const Interior& in, const Step& step,
 } // namespace
 
 InteriorPoint::InteriorPoint(std::shared_ptr<System> system)
-    : _system(std::move(system))
+    : _system(std::move(system)),
+      _extent(std::ranges::max(mesh::extent(
+          ranks(),
+          _system->halo()->reference().first(_system->num_displacements()),
+          _system->halo()->gdim())))
 {
 }
 
@@ -178,13 +190,35 @@ void InteriorPoint::note(std::span<const double> dx)
   if (not(sums[2] > 0))
     return;
   const double g = std::sqrt(sums[1] / sums[2]),
-               d = movement_fraction * farthest;
-  if (_count == 1 or _gap_scale == 0)
-  {
-    _gap_scale = std::max({g, d, _gap_scale});
-    _pressure_scale
-        = g > d ? std::abs(sums[0]) / sums[2] / g : std::abs(sums[3]) / sums[2];
-  }
+               d = std::min(movement_fraction * farthest, _extent);
+  _gap_scale = std::max({g, d, _gap_scale});
+  // Nodes that have been closed tell nothing of what closing takes
+  if (g > told_gap * _gap_scale)
+    _pressure_scale = std::abs(sums[0]) / sums[2] / std::max(g, d);
+  else if (not(_pressure_scale > 0))
+    _pressure_scale = std::abs(sums[3]) / sums[2];
+}
+
+/// Norm of the bulk's forces that nothing holds.
+double InteriorPoint::unbalanced() const
+{
+  const std::span<const double> force = _system->bulk()->residual();
+  const std::span<const std::int8_t> markers = _system->bulk()->markers();
+  double sum = 0;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (markers[i] == 0)
+      sum += force[i] * force[i];
+  return std::sqrt(mesh::total(ranks(), sum));
+}
+
+/// Norm of the areas of the slave nodes.
+double InteriorPoint::area() const
+{
+  double sum = 0;
+  for (const auto& c : _system->contacts())
+    for (const double A : c->nodes()->area)
+      sum += A * A;
+  return std::sqrt(mesh::total(ranks(), sum));
 }
 
 bool InteriorPoint::has_run_away() const
@@ -211,12 +245,7 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
   if (_is_barred)
     return false;
   _last_way = way;
-  if (way <= _shortest_way)
-  {
-    _shortest_way = way;
-    _nearest.resize(_system->size());
-    _system->unknowns(_nearest);
-  }
+  _shortest_way = std::min(_shortest_way, way);
   if (apart == 0)
     return false;
   if (_count > path_cost or has_run_away())
@@ -232,24 +261,43 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
 
 void InteriorPoint::start()
 {
+  // Nothing is to be had from where bodies have run away to
+  _before = _start;
+  if (not has_run_away())
+    _system->unknowns(_before);
+  _status.clear();
+  for (const auto& c : _system->contacts())
+    _status.push_back(c->nodes()->status);
+  _is_second = false;
+  begin();
+}
+
+bool InteriorPoint::begins_again()
+{
+  if (_is_second)
+    return false;
+  _is_second = true;
+  begin();
+  return true;
+}
+
+/// Begins from the displacements of the active set's iterate, which have come
+/// far, or where they are far off, and the second time, from those of the
+/// step's start. Multipliers of a set that is far off may have any size.
+void InteriorPoint::begin()
+{
   _is_on = true;
   _is_trial = false;
   _iterations = _poor = 0;
   _tried = -1;
   _steps.clear();
-  // Displacements have come far; multipliers of a set that is far off may have
-  // any size
-  _before.resize(_system->size());
-  if (has_run_away())
-    _before = _nearest;
-  else
-    _system->unknowns(_before);
-  _status.clear();
-  for (const auto& c : _system->contacts())
-    _status.push_back(c->nodes()->status);
   std::vector<double> from = _start;
   std::copy_n(_before.begin(), _system->num_bulk(), from.begin());
+  _system->take(_start);
+  const double here = unbalanced() + _pressure_scale * area();
   _system->take(from);
+  if (_is_second or unbalanced() > residual_ratio * here)
+    _system->take(_start);
   _shown.clear();
   _part = few_fraction;
   _level = trial_level;
@@ -287,8 +335,10 @@ void InteriorPoint::place()
       {
         in.is_on[i] = 1;
         in.slack[i] = std::max(nodes.gap[i], _gap_scale);
-        in.pressure[i] = is_first ? std::max(nodes.pressure(i), _pressure_scale)
-                                  : _product / in.slack[i];
+        const double product
+            = is_first ? _gap_scale * _pressure_scale : _product;
+        in.pressure[i] = is_first and not _is_second ? _pressure_scale
+                                                     : product / in.slack[i];
       }
       if (nodes.is_vector())
       {

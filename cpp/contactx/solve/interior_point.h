@@ -33,6 +33,9 @@ public:
   /// @param[in] is_barred Whether the active set goes on alone.
   void begin_step(bool is_barred);
 
+  /// @brief Take the state of now as the step's start.
+  void take_start() { _system->unknowns(_start); }
+
   /// @brief Let the active set go on alone in this step.
   void bar() { _is_barred = true; }
 
@@ -59,6 +62,11 @@ public:
 
   /// @brief Go to the path, with the multipliers of the step's start.
   void start();
+
+  /// @brief Begin once more where the path has led nowhere, from the
+  /// displacements of the step's start and with products that are all alike.
+  /// @return Whether it did: it does so once.
+  bool begins_again();
 
   /// @brief Take what a step changes of pressures and slacks; the displacements
   /// have been taken.
@@ -123,10 +131,14 @@ private:
   std::array<double, 2> lengths(const std::vector<Step>& steps) const;
   std::array<double, 3> means() const;
   void judge(const std::vector<Step>& steps);
+  void begin();
+  double unbalanced() const;
+  double area() const;
   bool has_run_away() const;
   void place();
 
   std::shared_ptr<System> _system;
+  double _extent; // of the scene
   bool _is_on = false, _is_trial = false, _is_predictor = false;
   // Numbers of iterates: of the active set, on the path, and of a trial
   int _count = 0, _iterations = 0, _trial = 0;
@@ -143,15 +155,14 @@ private:
   // Product below which the next trial begins at the latest
   double _level = 0;
   std::vector<double> _start; // unknowns at the step's start
-  // Unknowns of the active set's iterate that is nearest to the step's start,
-  // its way, and that of the last one
-  std::vector<double> _nearest;
+  // Ways since the step's start: the shortest one of the active set's iterates,
+  // and that of the last one
   double _shortest_way = 0, _last_way = 0;
   std::vector<double> _kept; // those at the trial
   // Unknowns and status where the path was taken
   std::vector<double> _before;
   std::vector<std::vector<std::int8_t>> _status;
-  bool _is_barred = false;
+  bool _is_barred = false, _is_second = false;
   std::int64_t _most_closed = 0;
   int _tried = -1; // iterate of the last trial
   int _poor = 0;   // iterates without progress

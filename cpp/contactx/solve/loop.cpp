@@ -5,6 +5,7 @@
 #include "../mesh/deformed_cells.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -131,6 +132,56 @@ bool Loop::find_homogeneous()
                              { return c->is_without_gaps(); });
 }
 
+bool Loop::is_curved() const
+{
+  return not _system->bulk()->is_linear()
+         or std::ranges::any_of(_system->contacts(), [](const auto& contact)
+                                { return contact->updates_kinematics(); });
+}
+
+/// Sets Dirichlet values among unknowns, takes them, and gives the norm of the
+/// residual, infinite where it is not finite.
+double Loop::residual_at(std::vector<double>& x)
+{
+  _system->take(x);
+  const std::span<const double> defect = _system->bulk()->defect();
+  for (std::size_t i = 0; i < defect.size(); ++i)
+    x[i] -= defect[i];
+  _system->take(x);
+  std::vector<double> b(_system->size());
+  _system->residual(b);
+  double sum = 0;
+  for (const double force : b)
+    sum += force * force;
+  sum = mesh::total(_system->halo()->ranks(), sum);
+  return std::isfinite(sum) ? std::sqrt(sum)
+                            : std::numeric_limits<double>::infinity();
+}
+
+void Loop::predict(std::span<const double> increment)
+{
+  if (not is_curved())
+    return;
+  std::vector<double> start(_system->size());
+  _system->unknowns(start);
+  std::vector<double> held = start, way = start, there = start;
+  const std::size_t n = _system->num_bulk();
+  for (std::size_t i = 0; i < there.size(); ++i)
+    there[i] += increment[i] / (i < n ? 1 : _system->factors()[i - n]);
+  const double before = residual_at(held), after = residual_at(there);
+  _system->take(start);
+  for (std::size_t i = 0; i < way.size(); ++i)
+    way[i] -= there[i];
+  if (not(after < before) or within_cells(way) < 1)
+    return;
+  _system->take(there);
+  _has_stepped = true;
+  _path.take_start();
+  update_active_set(false);
+  // As in settle_first
+  _system->evaluate();
+}
+
 void Loop::update_active_set(bool is_first)
 {
   _active_set.update(_forces, is_first);
@@ -213,29 +264,35 @@ Verdict Loop::judge_path(double rtol, double atol, std::span<double> b)
     return Verdict::goes_on;
   }
   _path.take();
-  if (_path.is_stuck())
+  bool leads_on = not _path.is_stuck();
+  double residual = 0;
+  do
   {
-    _path.give_up();
+    if (not leads_on)
+    {
+      _path.give_up();
+      ++_version;
+      update_active_set(false);
+      if (compare(rtol, atol, b))
+        return Verdict::solution;
+      // Where nothing can balance a body neither will
+      if (not _bodies->may_balance(_forces, _path.reach()))
+        return Verdict::unbalanced;
+      if (not _path.begins_again())
+        return Verdict::goes_on;
+    }
+    _active_set.pair();
+    _path.predict();
     ++_version;
-    update_active_set(false);
-    if (compare(rtol, atol, b))
-      return Verdict::solution;
-    // Where nothing can balance a body no active set will
-    return _bodies->may_balance(_forces, _path.reach()) ? Verdict::goes_on
-                                                        : Verdict::unbalanced;
-  }
-  _active_set.pair();
-  _path.predict();
-  ++_version;
-  compare(rtol, atol, b);
-  double sum = 0;
-  const auto markers = _system->bulk()->markers();
-  for (std::size_t i = 0; i < _system->num_displacements(); ++i)
-    if (markers[i] != 1)
-      sum += b[i] * b[i];
-  const double residual = std::sqrt(mesh::total(_system->halo()->ranks(), sum));
-  if (not std::isfinite(residual))
-    return Verdict::not_finite;
+    compare(rtol, atol, b);
+    double sum = 0;
+    const auto markers = _system->bulk()->markers();
+    for (std::size_t i = 0; i < _system->num_displacements(); ++i)
+      if (markers[i] != 1)
+        sum += b[i] * b[i];
+    residual = std::sqrt(mesh::total(_system->halo()->ranks(), sum));
+    leads_on = std::isfinite(residual);
+  } while (not leads_on);
   if (not _path.may_end(residual / _convergence.scale()))
     return Verdict::goes_on;
   _path.leave();

@@ -94,6 +94,15 @@ public:
   /// @brief Update pairs and the active set at the step's start.
   void settle_first();
 
+  /// @brief Start from another state, as a Newton step without a linear solve,
+  /// if its residual is smaller than that of the step's start.
+  ///
+  /// Slip is still counted from the step's start. Linear problems, of which a
+  /// Newton step knows as much, do not take it. Call it after `settle_first`.
+  /// @param[in] increment What it adds to the unknowns, multipliers in units of
+  /// their own (shape=(size)). Dirichlet values are set to those of now.
+  void predict(std::span<const double> increment);
+
   /// @brief Update pairs and the active set at an accepted iterate, and judge
   /// the residual that they give.
   ///
@@ -113,6 +122,10 @@ public:
   /// other law of friction than Coulomb's. Known once `settle_first` was
   /// called.
   bool is_homogeneous() const { return _is_homogeneous; }
+
+  /// @brief True unless one Newton step solves the problem for a given active
+  /// set.
+  bool is_curved() const;
 
   /// @brief Counts how often what the Jacobian depends on has changed, the
   /// displacements of linear solves apart.
@@ -184,6 +197,7 @@ private:
   void foresee(std::span<const double> dx);
   void look_ahead();
   bool find_homogeneous();
+  double residual_at(std::vector<double>& x);
   void take_back();
   void take_off_drift();
   Verdict judge_path(double rtol, double atol, std::span<double> b);

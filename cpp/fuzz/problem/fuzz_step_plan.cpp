@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
       require(plan.t() == to, "an accepted step is where it was to end");
       met.push_back(to);
     }
-    else if (plan.cut())
+    else if (plan.cut(in.below(60)))
       require(plan.t() == from and plan.next() < to,
               "a failed step is shorter next time");
     else

@@ -277,7 +277,7 @@ TEST(TimeStep, WrongArgumentsAreRefused)
 /// failure.
 std::vector<double> walk(StepPlan plan,
                          const std::function<bool(double, double)>& fails,
-                         int iterations = 5)
+                         int iterations = 5, int lost = 5)
 {
   std::vector<double> tried;
   while (not plan.finished())
@@ -287,13 +287,13 @@ std::vector<double> walk(StepPlan plan,
     tried.push_back(failed ? -t : t);
     if (not failed)
       plan.accept(iterations);
-    else if (not plan.cut())
+    else if (not plan.cut(lost))
       break;
   }
   return tried;
 }
 
-TEST(StepPlan, AFailedStepIsHalvedAndGrowsBackAfterEasyOnes)
+TEST(StepPlan, AFailedStepIsHalvedAndGrowsBackOnceItIsMadeUpFor)
 {
   const StepPlan plan(StepPlan::equal(2));
   EXPECT_EQ(walk(plan, [](double, double) { return true; }),
@@ -301,10 +301,32 @@ TEST(StepPlan, AFailedStepIsHalvedAndGrowsBackAfterEasyOnes)
                          -0.0078125}));
   const auto at_start
       = [](double start, double t) { return start == 0 and t > 0.1; };
-  EXPECT_EQ(walk(plan, at_start),
+  EXPECT_EQ(walk(plan, at_start), (std::vector{-0.5, -0.25, -0.125, 0.0625,
+                                               0.1875, 0.4375, 0.5, 1.0}));
+  // A failure that cost as much as six steps
+  EXPECT_EQ(walk(plan, at_start, 5, 30),
+            (std::vector{-0.5, -0.25, -0.125, 0.0625, 0.125, 0.1875, 0.25,
+                         0.3125, 0.375, 0.5, 0.75, 1.0}));
+  // Or after easy ones, where a user says what these are
+  const StepPlan easy(StepPlan::equal(2), 6, 10);
+  EXPECT_EQ(walk(easy, at_start, 5, 30),
             (std::vector{-0.5, -0.25, -0.125, 0.0625, 0.125, 0.25, 0.5, 1.0}));
-  // Hard ones stay short
-  EXPECT_EQ(walk(plan, at_start, 11).size(), 3 + 16u);
+  EXPECT_EQ(walk(easy, at_start, 11).size(), 3 + 16u);
+}
+
+TEST(StepPlan, AnAttemptMayCostWhatStepsBesideItDo)
+{
+  StepPlan plan(StepPlan::equal(2), 1);
+  // Nothing to measure it against
+  EXPECT_FALSE(plan.attempt().budget);
+  plan.accept(10);
+  const auto next = plan.attempt();
+  EXPECT_EQ(next.start, 0.5);
+  EXPECT_EQ(next.end, 1);
+  EXPECT_EQ(next.budget, 40);
+  // No shorter one follows
+  plan.cut(40);
+  EXPECT_FALSE(plan.attempt().budget);
 }
 
 TEST(StepPlan, GivenTAreMetExactly)
@@ -319,7 +341,7 @@ TEST(StepPlan, GivenTAreMetExactly)
 TEST(StepPlan, ASavedPlaceIsGoneOnFrom)
 {
   StepPlan plan(StepPlan::equal(4));
-  plan.cut();
+  plan.cut(7);
   plan.accept(5);
   StepPlan other(StepPlan::equal(4));
   other.load(plan.given(), plan.place());

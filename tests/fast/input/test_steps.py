@@ -161,7 +161,7 @@ def walk(plan, fails=lambda start, t: False, iterations=lambda start, t: 5):
         start, t = plan.t, plan.next
         if fails(start, t):
             tried.append(-t)
-            if not plan.cut():
+            if not plan.cut(5):
                 break
         else:
             tried.append(t)
@@ -220,7 +220,7 @@ def test_a_saved_place_is_gone_on_from(fails_at):
     whole, place = walk(make_plan(3, 6, 4), fails), make_plan(3, 6, 4)
     for _ in range(2):
         while fails(place.t, place.next):
-            place.cut()
+            place.cut(5)
         place.accept(5)
     saved = loaded(make_plan(3, 6, 4), place)
     assert saved == place

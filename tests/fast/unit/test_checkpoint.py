@@ -43,7 +43,7 @@ def test_results_are_there_at_once(name, tmp_path):
 def test_cut_steps_are_gone_on_from_as_they_were(tmp_path):
     straight, other, last = (Sheared(far=12.0) for _ in range(3))
     t = [step.t for step in straight.steps(1, easy=0)]
-    assert len(t) == 8
+    assert len(t) == 15
     for step in other.steps(1, easy=0, checkpoint=tmp_path / "run.npz"):
         if step.index == 4:
             break
@@ -148,7 +148,7 @@ def test_files_of_other_kinds(file, tmp_path):
     np.savez(other, u=np.zeros(3))
     refused(other, "holds arrays, but is no checkpoint of contactx")
     np.savez(other, contactx_checkpoint=np.array(1))
-    refused(other, "has format 1, but this contactx reads 4")
+    refused(other, "has format 1, but this contactx reads 5")
 
 
 def test_files_of_other_problems(file, tmp_path):

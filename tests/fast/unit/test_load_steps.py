@@ -35,26 +35,30 @@ def test_a_step_that_fails_is_cut_and_reaches_the_same_end():
     scene, direct = Sheared(), Sheared()
     steps = scene.steps(1)
     taken = list(steps)
-    assert scene.calls == [1.0, 0.5, 1.0]
-    assert [(step.index, step.t) for step in taken] == [(1, 0.5), (2, 1.0)]
-    first, second = (step.report for step in taken)
+    # What is left is cut, too: a shorter step is cheaper than damped ones
+    assert scene.calls == [1.0, 0.5, 1.0, 0.75, 1.0]
+    assert [(step.index, step.t) for step in taken] == [(1, 0.5), (2, 0.75), (3, 1.0)]
+    first, _, second = (step.report for step in taken)
     assert first.discarded > 0 and second.discarded == 0
     assert f"({first.discarded} more in attempts that failed)" in str(first)
     assert "cut" not in str(second)
     assert steps.t == 1
     # The attempt that failed has left no trace
-    for _ in direct.steps([0.5, 1.0]):
+    for _ in direct.steps([0.5, 0.75, 1.0]):
         pass
-    assert direct.calls == [0.5, 1.0]
+    assert direct.calls == [0.5, 0.75, 1.0]
     assert direct.state() == scene.state()
 
 
-def test_growth_after_easy_steps():
-    scene = Sheared(far=12.0)
-    t = [step.t for step in scene.steps(1)]
-    assert t == [0.125, 0.25, 0.5, 0.75, 1.0]
-    hard = Sheared(far=12.0)
-    assert [step.t for step in hard.steps(1, easy=0)] == [k / 8 for k in range(1, 9)]
+def test_growth():
+    """After easy steps, where these are told, else once a failure is made up for."""
+    scene, short = Sheared(far=12.0), Sheared(far=12.0)
+    steps = list(scene.steps(1))
+    assert steps[0].t == 0.125 and steps[-1].t == 1 and len(steps) < 12
+    assert sum(s.report.discarded for s in steps) <= 2 * sum(s.iterations for s in steps)
+    lengths = np.diff([0.0, *(step.t for step in short.steps(1, easy=0))])
+    assert len(lengths) == 15
+    assert np.all(np.diff(lengths) <= 0)
 
 
 def test_a_final_failure_leaves_the_last_accepted_step():
@@ -108,9 +112,9 @@ def test_after_a_failure_another_loop_goes_on():
         next(iter(steps))
     assert steps.t == 0.5
     scene.far = 3.0
-    assert [(step.index, step.t) for step in steps] == [(2, 1.0)]
+    assert [(step.index, step.t) for step in steps] == [(2, 0.75), (3, 1.0)]
     assert list(steps) == []
-    for _ in straight.steps([0.5, 1.0]):
+    for _ in straight.steps([0.5, 0.75, 1.0]):
         pass
     assert scene.state() == straight.state()
 
@@ -234,8 +238,8 @@ def test_the_table_and_the_bar(monkeypatch):
     assert steps.table() in shown
     assert "step 1 to t = 0.5, cut 1x" in shown
     rows = [line.split("│")[1:-1] for line in steps.table().splitlines() if "│" in line]
-    assert [float(row[1]) for row in rows] == [0.5, 1.0]
-    assert int(rows[0][3]) > 0 == int(rows[1][3])
+    assert [float(row[1]) for row in rows] == [0.5, 0.75, 1.0]
+    assert int(rows[0][3]) > 0 == int(rows[2][3])
 
 
 def test_silence(capsys):

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 # Says what the file is, and the version of its format
 _MARK = "contactx_checkpoint"
-_VERSION = 4
+_VERSION = 5
 # Advice where a file cannot be read
 _INSTEAD = ". Give another file, or leave restart out (manual: errors/restart-refused)"
 

@@ -64,7 +64,10 @@ class Checkpoint:
         """
         arrays = self._identity() | {"u": self._u.gather()}
         if self._nodes is not None:
-            arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
+            start = self._nodes.start[: self._owned]
+            before = self._nodes.before
+            arrays["start"] = self._u.rows.gather(start)
+            arrays["before"] = self._u.rows.gather(before if before.size else start)
         for k, discrete in enumerate(self._discrete_contacts):
             kinds = discrete.saved_rows
             for name, values in discrete.save().items():
@@ -93,6 +96,7 @@ class Checkpoint:
             self._problem.update_ghosts()
             if self._nodes is not None:
                 self._nodes.set_start(self._u.rows.scatter(saved.get("start")))
+                self._nodes.set_before(self._u.rows.scatter(saved.get("before")))
             for k, function in enumerate(self._functions):
                 function.scatter(saved.get(f"history {k}"))
             for k, discrete in enumerate(self._discrete_contacts):
@@ -175,7 +179,7 @@ def _check_fit(saved: Mapping[str, npt.NDArray[Any]], present: Arrays) -> None:
         if not same:
             raise ValueError(f"{name!r} is another one here: restart the same problem")
     for name, array in saved.items():
-        if name in ("u", "start") or name.endswith(": multiplier"):
+        if name in ("u", "start", "before") or name.endswith(": multiplier"):
             bad = np.count_nonzero(~np.isfinite(array))
             if bad:
                 raise ValueError(f"{name!r} is not finite at {bad} dofs")
