@@ -49,8 +49,10 @@ class LoadSteps:
     error, so compare with a run of twice as many. A step has one direction of slip: end one where
     the path turns; see theory/friction of the manual.
 
-    A step that does not converge is halved. Halved steps grow back: after an easy one the next is
-    twice as long, but no given t is passed over. The loop sees accepted steps only; its body runs
+    A step that does not converge is halved. Halved steps grow back: once the steps since have taken
+    as many linear solves as the failure did, the next is twice as long, but no given t is passed
+    over. A step starts from an extrapolation of the last one, where that is nearer a solution. The
+    loop sees accepted steps only; its body runs
     between them, so it may update a material's history. A failed attempt leaves u, contacts and
     history as they were, bit for bit. After a break, or an error that was caught, another loop over
     the same object goes on after the last accepted step. An accepted step that the body was not
@@ -97,7 +99,8 @@ class LoadSteps:
                 continues to the same answer.
             t_end: Where the last step ends, in the user's time; 1 if None.
             max_cuts: How often a given step may be halved.
-            easy: Linear solves up to which a step counts as easy.
+            easy: Linear solves up to which a step is followed by a longer one; None for the rule
+                above.
             progress: Whether to show a progress bar, and the table of steps at the end.
 
         Raises:

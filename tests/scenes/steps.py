@@ -50,6 +50,7 @@ class Sheared:
     def __init__(self, *, far: float = 3.0, deep: float = 0.5, **options: Any):
         data = meshes.blocks(CellType.triangle, (3, 3), (1, 1))
         mesh, tags = meshes.single(data, Tag.UPPER)
+        self.tags = tags
         self.u = u = displacement(mesh)
         self.far, self.deep = far, deep
         self.bcs = [

@@ -17,6 +17,8 @@ namespace
 /// before it, and no fewer than these. Sheets that are bent and drawn take the
 /// same, within a tenth, for 2 to 5 times and 10 to 24 solves
 constexpr int budget_ratio = 4, least_budget = 16;
+/// Failures in a row from which on a step is not extrapolated: the way turns
+constexpr int plain_failures = 2;
 } // namespace
 
 StepPlan::StepPlan(std::vector<double> given, int max_cuts,
@@ -50,7 +52,7 @@ std::vector<double> StepPlan::equal(int count, double t_end)
 Attempt StepPlan::attempt() const
 {
   Attempt attempt{t(), next(), 0, {}};
-  if (_length > 0)
+  if (_length > 0 and _failures < plain_failures)
     attempt.ratio = (attempt.end - attempt.start) / _length;
   // The first step has nothing to be measured against
   if (shorter() and _cost > 0)
@@ -65,10 +67,10 @@ void StepPlan::accept(int iterations)
   _cost = iterations;
   _debt = std::max(_debt - iterations, 0);
   const bool grows
-      = _easy ? iterations <= *_easy and not _has_failed : _debt == 0;
+      = _easy ? iterations <= *_easy and _failures == 0 : _debt == 0;
   if (grows)
     _cuts = std::max(_cuts - 1, 0);
-  _has_failed = false;
+  _failures = 0;
   _done = part;
   if (part < 1)
     return;
@@ -94,7 +96,7 @@ bool StepPlan::cut(int iterations)
   if (not cuts)
     return false;
   _cuts = *cuts;
-  _has_failed = true;
+  ++_failures;
   _debt = iterations;
   return true;
 }

@@ -100,12 +100,12 @@ private:
   int _max_cuts;
   std::optional<int> _easy;
   // How many given t have been reached, where the current step begins, which
-  // share of it was accepted, how often it is halved, and whether a longer step
-  // from this place has failed
+  // share of it was accepted, how often it is halved, and how often a longer
+  // step from this place has failed
   std::size_t _number = 0;
   double _start = 0, _done = 0;
   int _cuts = 0;
-  bool _has_failed = false;
+  int _failures = 0;
   // Linear solves of the last failure that accepted steps have not yet made up
   // for, and of the last accepted step
   int _debt = 0, _cost = 0;

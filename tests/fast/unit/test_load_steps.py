@@ -13,6 +13,9 @@ from rich.console import Console
 import contactx as cx
 from contactx._host.discrete_contact import Fields
 
+from meshes import Tag
+from scenes.materials import neo_hookean
+from scenes.problems import make_problem
 from scenes.steps import Sheared
 
 pytestmark = pytest.mark.usefixtures("method")
@@ -250,3 +253,67 @@ def test_silence(capsys):
         pass
     # No terminal: no bar, but the table
     assert capsys.readouterr().out.startswith("┏")
+
+
+def test_a_step_starts_from_an_extrapolation_of_the_last_one():
+    scene, plain = Sheared(far=0.5), Sheared(far=0.5)
+    solves = sum(step.iterations for step in scene.steps(8))
+    without = 0
+    for t in np.arange(1, 9) / 8:
+        plain.update(t)
+        plain.problem.solve()
+        without += plain.problem.report.iterations
+    assert solves <= 0.8 * without
+    assert scene.u.x.array == pytest.approx(plain.u.x.array, abs=1e-9)
+
+
+def test_a_start_of_the_users_own_is_kept():
+    """What an update sets u to is not extrapolated once more."""
+    scene = Sheared(far=0.5)
+    seen = []
+
+    def update(t):
+        scene.update(t)
+        if t > 0.5:
+            scene.u.x.array[:] = last
+        seen.append(scene.u.x.array.copy())
+
+    last = scene.u.x.array.copy()
+    reports = [step.report for step in scene.steps(2, update=update)]
+    assert len(seen) == 2
+    # From where nothing has moved the first residual is that of all of the way
+    assert reports[1].history[0].residual > 1.5 * reports[0].history[0].residual
+
+
+def test_an_iterate_where_a_level_set_is_undefined_ends_an_attempt_only():
+    scene = Sheared(far=0.5)
+    is_undefined, problem = True, None
+
+    def height(x):
+        nonlocal is_undefined
+        if problem is not None and problem.assembler.core.has_begun and is_undefined:
+            # Once: what is restored is where it is defined
+            is_undefined = False
+            return np.full_like(x[1], np.nan)
+        return x[1].copy()
+
+    up = lambda x: np.stack([0 * x[0], 0 * x[0] + 1])  # noqa: E731
+    contact = cx.Contact(cx.Surface(scene.tags, Tag.UPPER_CONTACT), cx.LevelSet(height, up))
+    problem = make_problem(neo_hookean(scene.u, 2.6, 0.3), scene.u, [contact], scene.bcs)
+    scene.update(1.0)
+    before = scene.u.x.array.copy()
+    with pytest.raises(cx.ConvergenceError, match="function of a LevelSet"):
+        problem.solve()
+    assert np.array_equal(scene.u.x.array, before)
+    calls = []
+
+    def update(t):
+        nonlocal is_undefined
+        calls.append(t)
+        is_undefined = len(calls) == 1
+        scene.update(t)
+
+    for _ in cx.LoadSteps(problem, 1, update, progress=False):
+        pass
+    assert calls == [1.0, 0.5, 1.0]
+    assert contact.force[1] > 0

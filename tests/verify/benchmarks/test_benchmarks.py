@@ -7,6 +7,7 @@ import bench_degrees
 import bench_dynamics
 import bench_edges
 import bench_fits
+import bench_forming
 import bench_friction
 import bench_growth
 import bench_hertz
@@ -187,6 +188,12 @@ def test_interior_point():
     rows = bench_path.main(["20"])
     assert len(rows) == 14
     assert rows[-1]["interior"] > 0
+
+
+def test_forming():
+    rows = bench_forming.main(["1"])
+    assert [row["mu"] for row in rows] == [0.0, 0.1]
+    assert all(row["force"] > 50 for row in rows)
 
 
 def test_many():
