@@ -3,7 +3,9 @@
 """Compare what a C++ program and a script of Python have printed: python compare.py ONE OTHER.
 
 Words and whole numbers must be the same, other numbers to 1e-10 of 1, or of themselves where they
-are larger: 1e-9 where the solver is iterative.
+are larger: 1e-9 where the solver is iterative. Iterations, the first whole number of a line, may
+differ by a fifth where there are more than 12: an interior point is on its way then, and rounding
+decides when it tries its active set.
 """
 
 from __future__ import annotations
@@ -18,8 +20,13 @@ def same(one: str, other: str) -> bool:
     if len(ours) != len(theirs):
         return False
     allowed = 1e-9 if "condensed" in ours else 1e-10
-    for a, b in zip(ours, theirs, strict=True):
+    counts = [k for k, word in enumerate(ours) if word.isdigit()][:1]
+    for k, (a, b) in enumerate(zip(ours, theirs, strict=True)):
         if a == b:
+            continue
+        if k in counts and b.isdigit() and min(int(a), int(b)) > 12:
+            if abs(int(a) - int(b)) > max(int(a), int(b)) / 5:
+                return False
             continue
         if "." not in a or "." not in b:
             return False
