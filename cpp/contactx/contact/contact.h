@@ -223,6 +223,9 @@ public:
   /// in full. It has been searched, and its gap updated; no status changes.
   void foresee();
 
+  /// @brief True if its conditions are integrals over facets.
+  bool integrates() const;
+
   /// @brief Mark the nodes that the complementarity closes.
   ///
   /// At a step's start also those that touch but for rounding errors: these
@@ -268,7 +271,6 @@ public:
 
 private:
   int gdim() const { return _halo->gdim(); }
-  bool integrates() const;
   std::vector<double> at_slaves(std::span<const double> x) const;
   void nodes_changed();
   void take_start();

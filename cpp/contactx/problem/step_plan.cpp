@@ -15,8 +15,8 @@ namespace
 {
 /// Linear solves after which a step is cut: this many times those of the step
 /// before it, and no fewer than these. Sheets that are bent and drawn take the
-/// same, within a tenth, for 2 to 5 times and 10 to 24 solves
-constexpr int budget_ratio = 4, least_budget = 16;
+/// same, within a tenth, for 2 to 5 times and 10 to 32 solves
+constexpr int budget_ratio = 4, least_budget = 32;
 /// Failures in a row from which on a step is not extrapolated: the way turns
 constexpr int plain_failures = 2;
 } // namespace

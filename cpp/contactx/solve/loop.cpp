@@ -160,7 +160,12 @@ double Loop::residual_at(std::vector<double>& x)
 
 void Loop::predict(std::span<const double> increment)
 {
-  if (not is_curved())
+  // By surface-to-surface an extrapolation may pass a corner of the other body,
+  // where that method has more than one answer
+  const bool may_pass = std::ranges::any_of(
+      _system->contacts(), [](const auto& contact)
+      { return contact->integrates() and not contact->master()->is_rigid(); });
+  if (not is_curved() or may_pass)
     return;
   std::vector<double> start(_system->size());
   _system->unknowns(start);
