@@ -407,14 +407,6 @@ private:
         s.values);
   }
 
-  /// Displacements that the last step has started from: those of now before
-  /// there is one.
-  std::vector<double> before() const
-  {
-    const std::vector<double>& u = halo().before();
-    return u.empty() ? owned(halo().start()->u) : u;
-  }
-
   void write_state(const File& file, const StepPlan* plan) const
   {
     file.write_same("format", std::vector<std::int64_t>{version});
@@ -426,7 +418,7 @@ private:
     const Rows nodes = node_rows();
     file.write(nodes, "nodes", identity());
     file.write(nodes, "start", owned(halo().start()->u));
-    file.write(nodes, "before", before());
+    file.write(nodes, "before", halo().before());
     for (const auto& [name, f] : _functions)
       file.write(f.rows, name, values_of(f));
     for (std::size_t k = 0; k < contacts().size(); ++k)

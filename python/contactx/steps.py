@@ -52,11 +52,11 @@ class LoadSteps:
     A step that does not converge is halved. Halved steps grow back: once the steps since have taken
     as many linear solves as the failure did, the next is twice as long, but no given t is passed
     over. A step starts from an extrapolation of the last one, where that is nearer a solution. The
-    loop sees accepted steps only; its body runs
-    between them, so it may update a material's history. A failed attempt leaves u, contacts and
-    history as they were, bit for bit. After a break, or an error that was caught, another loop over
-    the same object goes on after the last accepted step. An accepted step that the body was not
-    given, since ``output`` failed, comes first.
+    loop sees accepted steps only; its body runs between them, so it may update a material's
+    history. A failed attempt leaves u, contacts and history as they were, bit for bit. After a
+    break, or an error that was caught, another loop over the same object goes on after the last
+    accepted step. An accepted step that the body was not given, since ``output`` failed, comes
+    first.
 
     On several ranks all of them run the loop. What ``update``, ``output`` or the solve raises on
     one rank is raised on all of them. There are two errors on a single rank that leave the others

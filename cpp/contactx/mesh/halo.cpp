@@ -83,9 +83,8 @@ void Halo::accept()
   const auto next = now();
   if (next == _start)
     return;
-  if (_start)
-    _before.assign(_start->u.begin(),
-                   _start->u.begin() + std::ptrdiff_t(_num_owned) * _gdim);
+  _before.assign(_start->u.begin(),
+                 _start->u.begin() + std::ptrdiff_t(_num_owned) * _gdim);
   _start = next;
 }
 

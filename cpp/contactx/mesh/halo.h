@@ -118,7 +118,7 @@ public:
   const std::shared_ptr<const Configuration>& start() const { return _start; }
 
   /// @brief Displacements of owned nodes that the last accepted step has
-  /// started from (shape=(num_owned, gdim)); empty before there is one.
+  /// started from, zero before there is one (shape=(num_owned, gdim)).
   const std::vector<double>& before() const { return _before; }
 
   /// @brief Take other displacements of owned nodes for these.

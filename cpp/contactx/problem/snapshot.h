@@ -19,7 +19,7 @@ public:
   {
     std::vector<double> displacements; ///< those of solve::Bulk
     std::vector<double> start; ///< displacements of the step's start, likewise
-    /// Those of the last step's start, likewise; empty before there is one
+    /// Those of the last step's start, likewise
     std::vector<double> before;
     std::vector<double> fields; ///< those of solve::Fields
     /// Those of each contact, see contact::save

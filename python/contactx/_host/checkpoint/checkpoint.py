@@ -64,10 +64,8 @@ class Checkpoint:
         """
         arrays = self._identity() | {"u": self._u.gather()}
         if self._nodes is not None:
-            start = self._nodes.start[: self._owned]
-            before = self._nodes.before
-            arrays["start"] = self._u.rows.gather(start)
-            arrays["before"] = self._u.rows.gather(before if before.size else start)
+            arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
+            arrays["before"] = self._u.rows.gather(self._nodes.before)
         for k, discrete in enumerate(self._discrete_contacts):
             kinds = discrete.saved_rows
             for name, values in discrete.save().items():
