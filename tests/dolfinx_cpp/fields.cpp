@@ -147,7 +147,7 @@ void steps(const Scene& scene, const std::string& name,
                             cx::Assembler::Audit::refuse, conductances);
     cx::Checkpoint checkpoint(assembler, {history});
     cx::KSPSolver solver(assembler, scene.ksp);
-    for (const double way : {0.0, 0.03, -0.02})
+    for (const double way : {0.0, 0.01, -0.01})
     {
       if (way < 0)
         checkpoint.write(file(size), &plan);
