@@ -370,9 +370,13 @@ class _Look:
         if not self._loaded[node]:
             return
         facets = (self._slave == node).any(axis=1)
-        facets &= ~(self.measure.edge & self._contact.is_finite)
+        # On an edge of the slave normals are those of all that its facets have in front of them
+        edge = self.measure.edge & self._contact.is_finite
+        at, ahead = self.measure.ahead
+        ahead = ahead[(facets & edge)[at]]
         dim = state.x.shape[1]
-        cone = np.concatenate([near.normal, -self.measure.corners[facets].reshape(-1, dim)])
+        own = -self.measure.corners[facets & ~edge].reshape(-1, dim)
+        cone = np.concatenate([near.normal, own, ahead])
         small += size * float(np.linalg.norm([self._rough(weight, near, n) for n in near.normal.T]))
         middle = cone.mean(axis=0) / np.linalg.norm(cone.mean(axis=0))
         tilt = self._tilt[node] = float(np.linalg.norm(cone - middle, axis=1).max())

@@ -127,10 +127,13 @@ class Measure:
         own: Outward unit normals of the slave at its points, when it was last measured.
         corners: The same at the corners of its facets, shape (m, k, dim).
         edge: Facets of the slave on its edges, whose normals are not those of what they touch.
+        ahead: For points on such facets, the number of the facet and the normal of what their own
+            normals meet, when it was last measured, shapes (n,) and (n, dim).
     """
 
     own: Array
     corners: Array
+    ahead: tuple[Numbers, Array]
 
     def __init__(self, contact: Contact, slave: Numbers, master: Numbers | None, x: Array):
         """Find the points.
@@ -157,6 +160,7 @@ class Measure:
             self.points = faces.Points(nodes[:, None], np.ones((len(nodes), 1)))
         self._at = contact.master.at() if isinstance(contact.master, Obstacle) else np.zeros(0)
         self._reference: Near | None = None
+        self.ahead = (np.zeros(0, dtype=np.int64), np.zeros((0, x.shape[1])))
 
     def accept(self) -> None:
         """The next step starts here."""
@@ -244,6 +248,12 @@ class Measure:
         point, facet = point[facing], facet[facing]
         k = corners.shape[1]
         if mean:
+            edge = np.flatnonzero(self.edge[self.facet[point]])
+            met = faces.cast(points[point[edge]], self.own[point[edge]], corners[facet[edge]])[0]
+            within = faces.beyond(met, k) <= margin
+            edge, met = edge[within], met[within]
+            normals = faces.normals(corners[facet[edge]], met)
+            self.ahead = self.facet[point[edge]], normals
             ways = self._ways(points, corners, point, facet)[point]
             xi, gap = faces.cast(points[point], ways, corners[facet])
         else:
