@@ -99,12 +99,12 @@ Attributes:
       .def_readonly("immobile", &Report::immobile)
       .def_readonly("frozen_pairs", &Report::frozen_pairs)
       .def_readonly("frozen_gap", &Report::frozen_gap)
+      .def_readonly("slipping", &Report::slipping)
       .def_readonly("slip", &Report::slip)
       .def_readonly("dissipation", &Report::dissipation)
       .def_readonly("interior", &Report::interior)
       .def_readonly("limited", &Report::limited)
       .def_readonly("shortened", &Report::shortened)
-      .def_readonly("cycles", &Report::cycles)
       .def_readonly("corners", &Report::corners)
       .def_readonly("free_modes", &Report::free_modes)
       .def_readonly("closed_for_balance", &Report::closed_for_balance)
@@ -140,6 +140,22 @@ Attributes:
              const Array<double>& place)
           { self.load(view(given), view(place)); },
           py::arg("given"), py::arg("place"));
+
+  m.def("step_log_heading", &step_log_heading);
+  m.def(
+      "step_log_line",
+      [](int step, int attempt, double start, double end, int solves,
+         std::int64_t closed, std::int64_t slipping, double residual,
+         double tolerance, double seconds, std::string failure)
+      {
+        return step_log_line({step, attempt, start, end, solves, closed,
+                              slipping, residual, tolerance, seconds,
+                              std::move(failure)});
+      },
+      py::kw_only(), py::arg("step"), py::arg("attempt"), py::arg("start"),
+      py::arg("end"), py::arg("solves"), py::arg("closed"), py::arg("slipping"),
+      py::arg("residual"), py::arg("tolerance"), py::arg("seconds"),
+      py::arg("failure"));
 
   py::enum_<Outcome>(m, "Outcome", "What has come of an attempt at a step")
       .value("converged", Outcome::converged)

@@ -235,15 +235,17 @@ public:
   /// @param[in] update Sets loads and Dirichlet values for a t.
   /// @param[in] solver Solver of the Jacobian.
   /// @param[in] tolerances When iterations end.
+  /// @param[in] log Called with each attempt.
   /// @throws ConvergenceError if the shortest step does not converge; plan and
   /// state are then those of before.
   void advance(StepPlan& plan, const std::function<void(double t)>& update,
                contactx::problem::LinearSolver& solver,
-               const Tolerances& tolerances = {})
+               const Tolerances& tolerances = {},
+               const contactx::problem::StepLog& log = {})
   {
     try
     {
-      _problem->advance(plan, update, solver, tolerances);
+      _problem->advance(plan, update, solver, tolerances, log);
     }
     catch (...)
     {

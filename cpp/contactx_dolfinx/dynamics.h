@@ -134,11 +134,13 @@ public:
   /// of a step.
   /// @param[in] solver Solver of the Jacobian.
   /// @param[in] tolerances When iterations end.
+  /// @param[in] log Called with each attempt.
   /// @throws ConvergenceError if the shortest step does not converge; plan and
   /// state are then those of before.
   void advance(StepPlan& plan, const std::function<void(double t)>& update,
                contactx::problem::LinearSolver& solver,
-               const Tolerances& tolerances = {})
+               const Tolerances& tolerances = {},
+               const contactx::problem::StepLog& log = {})
   {
     const double start = plan.t();
     _assembler.advance(
@@ -148,7 +150,7 @@ public:
           update(t);
           _next = t - start;
         },
-        solver, tolerances);
+        solver, tolerances, log);
     finish();
   }
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 import warnings
 from collections import Counter
 from collections.abc import Sequence
@@ -44,6 +45,8 @@ from contactx.contact import Contact, check_contacts
 from contactx.errors import ConvergenceError, NotFiniteError
 from contactx.report import Iteration, Report
 from dolfinx import fem, la
+
+_logger = logging.getLogger("contactx.iterates")
 
 
 class ContactAssembler:
@@ -308,8 +311,7 @@ class ContactAssembler:
     def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> core.Settled:
         """Update pairs and active set at an accepted iterate, and test its residual.
 
-        The iterate may change a little: where iterates cycle, part of the last step is taken back,
-        and the drift of free bodies is subtracted.
+        The iterate may change a little: the drift of free bodies is subtracted.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.
@@ -348,8 +350,11 @@ class ContactAssembler:
     def _settled(self, found: core.Settled) -> core.Settled:
         """Take note of an iterate that was tested, which may have been taken back."""
         self.system.pack()
-        self.report.history.append(Iteration.of(found))
+        row = Iteration.of(found)
+        self.report.history.append(row)
         self.report.take(self.core.report)
+        if self._comm.rank == 0:
+            _logger.debug("%s", row)
         return found
 
     @property

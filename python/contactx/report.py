@@ -25,12 +25,12 @@ _OF_CORE = (
     "immobile",
     "frozen_pairs",
     "frozen_gap",
+    "slipping",
     "slip",
     "dissipation",
     "interior",
     "limited",
     "shortened",
-    "cycles",
     "corners",
     "free_modes",
     "closed_for_balance",
@@ -151,9 +151,9 @@ class Report:
         interior: Iterates of the interior point, each of two linear solves.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
         shortened: Newton steps that were damped.
-        cycles: How often the active set cycled and steps were shortened.
         free_modes: Rigid modes of free bodies, at the end; the forces along them balance.
         closed_for_balance: Nodes that were closed since a free body would touch there first.
+        slipping: Slave nodes that slip against friction.
         slip: Sum over the slave nodes of their slip in this step, a length.
         dissipation: Work of friction in all steps so far.
         frozen_pairs: Pairs that alternated between facets and were frozen.
@@ -188,9 +188,9 @@ class Report:
     interior: int = 0
     limited: int = 0
     shortened: int = 0
-    cycles: int = 0
     free_modes: int = 0
     closed_for_balance: int = 0
+    slipping: int = 0
     slip: float = 0.0
     dissipation: float = 0.0
     frozen_pairs: int = 0
@@ -298,8 +298,6 @@ class Report:
         ]
         if any(acted):
             lines.append(", ".join(text for text in acted if text))
-        if self.cycles:
-            lines.append(f"the status came back {self.cycles} times; steps were shortened")
         if self.corners:
             lines.append(
                 f"{self.corners} nodes close several contacts at once: without friction, and only "

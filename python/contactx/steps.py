@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 import operator
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -31,6 +32,8 @@ from contactx.errors import ConvergenceError
 from contactx.problem import ContactProblem
 from contactx.report import Report, render
 from dolfinx import fem
+
+_logger = logging.getLogger("contactx.steps")
 
 
 class LoadSteps:
@@ -78,6 +81,7 @@ class LoadSteps:
         t_end: float | None = None,
         max_cuts: int = 6,
         easy: int | None = None,
+        log: str | Path | None = None,
         progress: bool = True,
     ):
         """Create the steps; nothing is solved before the loop starts.
@@ -101,6 +105,11 @@ class LoadSteps:
             max_cuts: How often a given step may be halved.
             easy: Linear solves up to which a step is followed by a longer one; None for the rule
                 above.
+            log: Text file with a line for each attempt: step, attempt, t, its length, linear
+                solves, nodes in contact and those that slip, residual and its bound, seconds, and
+                why it has failed. A line is on disk once its attempt has ended; a restarted run
+                goes on in the same file. The same lines go to the logger "contactx.steps" of
+                Python's ``logging``, at level INFO.
             progress: Whether to show a progress bar, and the table of steps at the end.
 
         Raises:
@@ -119,10 +128,12 @@ class LoadSteps:
             self._plan = make_plan(steps, max_cuts, easy, t_end)
             self._checkpoint = None if checkpoint is None else check_path("checkpoint", checkpoint)
             restarted = None if restart is None else check_path("restart", restart)
-            if self._checkpoint is not None and comm.rank == 0:
-                make_folder("checkpoint", self._checkpoint)
+            self._log = None if log is None else check_path("log", log)
+            for name, path in {"checkpoint": self._checkpoint, "log": self._log}.items():
+                if path is not None and comm.rank == 0:
+                    make_folder(name, path)
         plan = self._plan.given, self._plan.max_cuts, self._plan.easy
-        _check_same(comm, plan, self._checkpoint, restart, len(history), output is None)
+        _check_same(comm, plan, self._checkpoint, restart, len(history), output is None, self._log)
         self._problem = problem
         self._update = update
         self._history = [*history, *problem.beside]
@@ -136,6 +147,11 @@ class LoadSteps:
             self._state = Checkpoint(problem, self._history)
         if restarted is not None:
             self._restart(restarted)
+        if self._log is not None:
+            with agreed(comm):
+                if comm.rank == 0:
+                    with self._log.open("w" if restarted is None else "a") as file:
+                        file.write(f"{core.step_log_heading()}\n")
 
     @property
     def t(self) -> float:
@@ -206,7 +222,7 @@ class LoadSteps:
     def _take_step(self, show: Show) -> Step:
         """Attempt shorter and shorter steps until one is accepted."""
         before = self._snapshot()
-        begin = time.perf_counter()
+        begin = last = time.perf_counter()
         index, plan, cuts, discarded = len(self._rows) + 1, copy(self._plan), 0, 0
         with Interrupts() as interrupts:
             while True:
@@ -224,13 +240,17 @@ class LoadSteps:
                     report = self._problem.report
                     report.discarded += discarded
                     step = Step(index, plan.next, report)
-                    row = make_row(step, time.perf_counter() - begin)
+                    now = time.perf_counter()
+                    row = make_row(step, now - begin)
+                    self._write((index, cuts + 1), plan.next, now - last, report, discarded)
                     plan.accept(report.iterations)
                     self._rows, self._plan, self._unseen = [*self._rows, row], plan, step
                 except ConvergenceError as error:
                     interrupts.wait()
                     before.restore()
-                    end = plan.next
+                    end, now = plan.next, time.perf_counter()
+                    self._write((index, cuts + 1), end, now - last, error.report)
+                    last = now
                     spent = error.report.iterations + error.report.discarded
                     if not plan.cut(spent):
                         error.report.discarded += discarded
@@ -253,6 +273,46 @@ class LoadSteps:
                         self._update_again(error)
                     raise
                 return step
+
+    def _write(
+        self,
+        number: tuple[int, int],
+        end: float,
+        seconds: float,
+        report: Report,
+        of_others: int = 0,
+    ) -> None:
+        """Write an attempt to the log.
+
+        Args:
+            number: Of the step, and of the attempt at it.
+            end: Where the attempt ends.
+            seconds: Wall time.
+            report: Its report.
+            of_others: What is counted in ``report.discarded`` of other attempts.
+        """
+        with agreed(self._comm):
+            if self._comm.rank != 0:
+                return
+            step, attempt = number
+            last = report.history[-1] if report.history else None
+            line = core.step_log_line(
+                step=step,
+                attempt=attempt,
+                start=self.t,
+                end=end,
+                solves=report.iterations + report.discarded - of_others,
+                closed=last.closed if last else 0,
+                slipping=report.slipping,
+                residual=last.residual if last else np.nan,
+                tolerance=last.tolerance if last else np.nan,
+                seconds=seconds,
+                failure="" if report.converged else report.reason,
+            )
+            _logger.info("%s", line)
+            if self._log is not None:
+                with self._log.open("a") as file:
+                    file.write(f"{line}\n")
 
     def _snapshot(self) -> Snapshot:
         return self._problem.snapshot(self._history)

@@ -227,7 +227,6 @@ void Contact::begin_step()
 {
   _skipped_searches = 0;
   _multiplier = _nodes->multiplier;
-  _law->begin_step();
   _master->rebuild();
   freeze(false);
   turn_tractions();
@@ -235,8 +234,6 @@ void Contact::begin_step()
   for (std::size_t i = 0; i < _touched.size(); ++i)
     _touched[i] = _nodes->closed(i);
   _is_predicted = false;
-  std::ranges::fill(_nodes->slip_reversals, 0);
-  std::ranges::fill(_nodes->slip_closings, 0);
   if (sliding() == Sliding::small and _master->is_rigid())
   {
     const auto reference = _halo->reference();

@@ -47,10 +47,9 @@ struct FrictionalLaw
 /// whose trial friction opposes t sticks first, if t_hat is not too long; at a
 /// solution both agree.
 /// @param[in] state State.
-/// @param[in] reach Length of t_hat, over mu p_hat, up to which it does.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.
-std::int32_t frictional_status(const FrictionalState& state, double reach,
+std::int32_t frictional_status(const FrictionalState& state,
                                std::span<std::int8_t> status);
 
 /// @brief Complementarity function of contact with Coulomb friction, times the

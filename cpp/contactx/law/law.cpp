@@ -21,9 +21,6 @@ namespace
 // is its bound: what Newton's method leaves at the end of a step, which starts
 // the next one, and linear solves within it
 constexpr double bound_rel_tol = 1e-6;
-// Growth of the largest trial friction of a reversal after each cycle of the
-// active set
-constexpr double reach_growth = 1e3;
 
 /// What is thrown for other multipliers than those of a law.
 void check_multipliers(const Law& law, const NodeState& nodes)
@@ -47,21 +44,6 @@ std::vector<double> closable_gaps(const NodeState& nodes)
 double edge(double pressure, double highest)
 {
   return pressure > 0 ? std::min(bound_rel_tol * highest / pressure, 0.5) : 0.5;
-}
-
-/// Whether the trial friction of a node exceeds a bound.
-bool exceeds(const NodeState& nodes, std::size_t i, double bound)
-{
-  const std::size_t gdim = nodes.gdim();
-  const double p = nodes.pressure(i), c = nodes.tangential_ratio * nodes.c[i];
-  double size = 0;
-  for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
-  {
-    const double trial
-        = nodes.multiplier[k] - p * nodes.normal[k] - c * nodes.slip[k];
-    size += trial * trial;
-  }
-  return std::sqrt(size) > bound;
 }
 
 std::vector<double> pressures(const NodeState& nodes)
@@ -108,10 +90,6 @@ void Frictionless::evaluate(NodeState& nodes) const
                            nodes.status, nodes.value, nodes.by_multiplier,
                            nodes.by_gap);
 }
-
-void Coulomb::begin_step() { _reach = _initial_reach; }
-
-void Coulomb::allow_larger_friction() { _reach *= reach_growth; }
 
 void Coulomb::set_friction(std::span<const double> friction)
 {
@@ -236,39 +214,18 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
     if (nodes.status[i] == slip)
       found.bound[i] *= 1 - edge(nodes.pressure(i), highest);
 
-  const auto before = nodes.status;
   const auto gap = closable_gaps(nodes);
-  frictional_status({nodes.gdim(),
-                     nodes.multiplier,
-                     gap,
-                     nodes.normal,
-                     nodes.slip,
-                     nodes.c,
-                     found.by_pressure,
-                     found.bound,
-                     {},
-                     nodes.tangential_ratio},
-                    _reach, nodes.status);
-  std::int32_t changed = 0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-  {
-    std::int8_t& now = nodes.status[i];
-    if (before[i] == open and now == slip and found.bound[i] > 0)
-    {
-      if (nodes.slip_closings[i] % 4 == 3)
-        now = stick;
-      ++nodes.slip_closings[i];
-    }
-    else if (before[i] == slip and now == stick
-             and exceeds(nodes, i, found.bound[i]))
-    {
-      if (nodes.slip_reversals[i] % 2 == 1)
-        now = slip;
-      ++nodes.slip_reversals[i];
-    }
-    changed += now != before[i];
-  }
-  return changed;
+  return frictional_status({nodes.gdim(),
+                            nodes.multiplier,
+                            gap,
+                            nodes.normal,
+                            nodes.slip,
+                            nodes.c,
+                            found.by_pressure,
+                            found.bound,
+                            {},
+                            nodes.tangential_ratio},
+                           nodes.status);
 }
 
 void Coulomb::evaluate(NodeState& nodes) const

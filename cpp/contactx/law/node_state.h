@@ -79,10 +79,6 @@ public:
   /// 1 where friction is left out because a node closes several contacts
   /// (shape=(n))
   std::vector<std::int8_t> frictionless;
-  /// How often slip has turned back in this step (shape=(n))
-  std::vector<std::int32_t> slip_reversals;
-  /// How often nodes have closed with slip in this step (shape=(n))
-  std::vector<std::int32_t> slip_closings;
   /// Complementarity factor along the surface, as a part of c
   double tangential_ratio = 1;
   /// Where the nodes are while an interior-point method solves

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 using namespace contactx;
 using namespace contactx::problem;
@@ -203,12 +204,28 @@ void Problem::solve(LinearSolver& solver, const Tolerances& tolerances)
 }
 
 void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
-                      LinearSolver& solver, const Tolerances& tolerances)
+                      LinearSolver& solver, const Tolerances& tolerances,
+                      const StepLog& log)
 {
   const Snapshot before = snapshot();
   StepPlan attempted = plan;
-  int discarded = 0;
+  int discarded = 0, attempt = 0;
+  auto begin = std::chrono::steady_clock::now();
   const auto set = [&](double t) { _halo->ranks().agree([&] { update(t); }); };
+  const auto note = [&](double t, const std::string& failure)
+  {
+    if (not log)
+      return;
+    const auto now = std::chrono::steady_clock::now();
+    AttemptRecord record = this->record(failure);
+    record.attempt = ++attempt;
+    record.start = plan.t();
+    record.end = t;
+    record.seconds
+        = std::chrono::duration<double>(now - std::exchange(begin, now))
+              .count();
+    _halo->ranks().agree([&] { log(record); });
+  };
   // Loads of the last accepted step; what is said where that fails, too
   const auto set_back = [&]() -> std::string
   {
@@ -233,11 +250,13 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
       set_attempt(attempted.attempt());
       is_set = true;
       solve(solver, tolerances);
+      note(t, "");
       break;
     }
     catch (const ConvergenceError& error)
     {
       before.restore();
+      note(t, error.what());
       discarded += _report.discarded + _number;
       if (attempted.cut(_report.discarded + _number))
         continue;
@@ -259,6 +278,23 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
   _report.discarded += discarded;
   attempted.accept(_number);
   plan = std::move(attempted);
+}
+
+AttemptRecord Problem::record(std::string failure) const
+{
+  AttemptRecord record;
+  record.step = _num_accepted + (failure.empty() ? 0 : 1);
+  record.solves = _report.discarded + _number;
+  record.slipping = _report.slipping;
+  if (not _report.history.empty())
+  {
+    const Settled& last = _report.history.back();
+    record.closed = last.closed;
+    record.residual = last.residual;
+    record.tolerance = last.tolerance;
+  }
+  record.failure = std::move(failure);
+  return record;
 }
 
 bool Problem::attempt(const std::function<Outcome(bool damped)>& attempt)
@@ -637,6 +673,7 @@ void Problem::accept()
     _audit->accept();
   }
   complete();
+  ++_num_accepted;
   _has_begun = false;
 }
 
@@ -666,13 +703,18 @@ void Problem::summarise()
   _report.interior = _loop.path().iterations();
   _report.limited = _loop.length().limited();
   _report.shortened = _loop.length().damped();
-  _report.cycles = active_set.cycles();
   _report.corners = active_set.num_corners();
   _report.free_modes = bodies.free_modes();
   _report.closed_for_balance = bodies.closed_for_balance();
-  _report.skipped_searches = 0;
+  _report.skipped_searches = _report.slipping = 0;
   for (const auto& contact : _system->contacts())
+  {
     _report.skipped_searches += contact->skipped_searches();
+    if (contact->history())
+      _report.slipping
+          += std::ranges::count(contact->nodes()->status, law::slip);
+  }
+  _report.slipping = mesh::total(_halo->ranks(), _report.slipping);
 }
 
 /// Writes the totals of an accepted step, and what it is warned of.

@@ -7,6 +7,7 @@
 #include "../solve/loop.h"
 #include "audit_report.h"
 #include "snapshot.h"
+#include "step_log.h"
 #include "step_plan.h"
 #include "values.h"
 #include <functional>
@@ -93,12 +94,12 @@ struct Report
   std::int64_t immobile = 0;     ///< of these, that cannot move to it
   std::int64_t frozen_pairs = 0; ///< pairs that were frozen
   double frozen_gap = 0;         ///< smallest gap that these hide
+  std::int64_t slipping = 0;     ///< slave nodes that slip against friction
   double slip = 0;               ///< sum of the slip of this step, a length
   double dissipation = 0;        ///< work of friction of all steps
   int interior = 0;              ///< iterates of the interior point
   int limited = 0;               ///< steps that cells have limited
   int shortened = 0;             ///< steps that were damped
-  int cycles = 0;                ///< how often a status has come back
   std::int64_t corners = 0;      ///< nodes that close several contacts
   std::int64_t free_modes = 0;   ///< rigid modes that are left free
   /// Nodes that were closed to balance a free body
@@ -230,10 +231,16 @@ public:
   /// each attempt, and where none converges once more for the last accepted t.
   /// @param[in] solver Solves with the Jacobian.
   /// @param[in] tolerances When iterations end.
+  /// @param[in] log Called with each attempt.
   /// @throws ConvergenceError if the shortest one does not converge; plan and
   /// state are then those of before.
   void advance(StepPlan& plan, const std::function<void(double t)>& update,
-               LinearSolver& solver, const Tolerances& tolerances = {});
+               LinearSolver& solver, const Tolerances& tolerances = {},
+               const StepLog& log = {});
+
+  /// @brief What came of the last attempt, without times and t.
+  /// @param[in] failure Why it failed; empty where it was accepted.
+  AttemptRecord record(std::string failure) const;
 
   /// @brief Attempt a step that was prepared, and once more with damped steps
   /// where full ones have failed and these may do better.
@@ -264,8 +271,8 @@ public:
   /// @brief Read what a user may have changed since the last call, update pairs
   /// and active set at an accepted iterate, and judge its residual.
   ///
-  /// The iterate may change by a little: where the active set cycles, part of
-  /// the last step is taken back, and so is what free bodies have drifted by.
+  /// The iterate may change by a little: what free bodies have drifted by is
+  /// taken back.
   /// @param[in] rtol Tolerance relative to the forces of the problem.
   /// @param[in] atol Absolute tolerance, a force.
   /// @param[in] max_it Most linear solves of the step.
@@ -369,7 +376,7 @@ private:
   std::optional<Snapshot> _before;
   Report _report;
   std::optional<Settled> _found;
-  int _number = 0;
+  int _number = 0, _num_accepted = 0;
   int _starts = 0, _restores = 0;
   // Whether the values of the contacts have been read, a step has begun, a part
   // of it was taken since the last iterate was judged, and a step was accepted

@@ -110,7 +110,6 @@ void ActiveSet::begin_step()
   _halo->shrink();
   for (const auto& c : _contacts)
     c->begin_step();
-  _guard.begin_step();
 }
 
 Changes ActiveSet::update(const Forces& forces, bool is_first)
@@ -220,7 +219,7 @@ void ActiveSet::share(bool is_first)
   for (std::size_t k = 0; k < _contacts.size(); ++k)
     closing.push_back({_contacts[k]->law()->is_tied(), closes[k],
                        _contacts[k]->nodes()->gap, normals[k]});
-  const std::vector<Shared> shared = _junctions.update(closing, is_first);
+  const std::vector<Shared> shared = _junctions.update(closing);
   for (std::size_t k = 0; k < _contacts.size(); ++k)
   {
     // Views of the arrays stay valid
@@ -271,16 +270,6 @@ void ActiveSet::reset_flips()
 {
   for (const auto& c : _contacts)
     c->master()->reset_flips();
-}
-
-void ActiveSet::note(double residual)
-{
-  std::vector<std::span<const std::int8_t>> status;
-  for (const auto& c : _contacts)
-    status.push_back(c->nodes()->status);
-  if (_guard.note(fingerprint(_halo->ranks(), status), residual))
-    for (const auto& c : _contacts)
-      c->law()->allow_larger_friction();
 }
 
 bool ActiveSet::hide_penetration()

@@ -26,10 +26,8 @@ namespace
 // Force along free modes, over the residual, up to which the step has no rigid
 // motion
 constexpr double idle_force_max = 1e-3;
-// Stiffness of springs over the bulk's: where forces along the free modes
-// balance, so that springs carry none, and where they do not
-constexpr double spring_ratio_balanced = 1e-6;
-constexpr double spring_ratio_unbalanced = 1e-3;
+// Stiffness of springs over the bulk's
+constexpr double spring_ratio = 1e-6;
 // Force along free modes, over that of the loads, that contact forces must
 // leave where they cannot balance it, and work of a force over the largest that
 // it may have, below which it has none
@@ -284,7 +282,6 @@ bool FreeBodies::stabilise(const Forces& forces)
     return false;
   const std::span<const double> reference = _bulk->reference();
   const std::span<const double> x = positions();
-  const std::size_t m = _modes->modes_per_body();
   const std::size_t n
       = _bodies->map().num_owned() * std::size_t(_modes->gdim());
   const auto checked = [&](std::vector<double> values)
@@ -332,19 +329,13 @@ bool FreeBodies::stabilise(const Forces& forces)
       _is_unbalanced = false;
       break;
     }
-    // The rigid motion of bodies whose mass goes with their number of nodes
-    MatrixXd heavy = N;
-    for (std::size_t b = 0; b < _modes->count(); ++b)
-      heavy.middleRows(b * m, m) *= _modes->num_nodes()[b];
-    const VectorXd motion = N * combined(N.transpose() * heavy, f);
+    const VectorXd motion = N * f;
     const std::span increment(motion.data(), motion.size());
     const std::int64_t closed = close_first(rows, increment);
     _closed_for_balance += closed;
     if (closed == 0 and not stick_first(rows, increment))
     {
       _is_unbalanced = true;
-      // A support may have become stiff during the iteration
-      _modes->update(*_bulk, x);
       break;
     }
     closed_any = true;
@@ -390,10 +381,9 @@ void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
         Loose{std::move(shares), {u.begin(), u.end()}});
   }
   // Weak, so that they do not slow down convergence along modes with a small
-  // stiffness, as of friction that turns; a body out of balance stays near what
-  // it may touch
+  // stiffness, as of friction that turns
   for (double& spring : springs)
-    spring *= _is_unbalanced ? spring_ratio_unbalanced : spring_ratio_balanced;
+    spring *= spring_ratio;
   _springs = std::move(springs);
 }
 

@@ -108,14 +108,12 @@ RigidModes::RigidModes(std::shared_ptr<const mesh::Bodies> bodies, Bulk& bulk,
       sum[1 + k] += x[i * g + k];
   }
   sum_up(ranks, sums);
-  _num_nodes.resize(count);
   _middle.resize(count * g);
   for (std::size_t b = 0; b < count; ++b)
   {
-    _num_nodes[b] = sums[b * (1 + g)];
     for (std::size_t k = 0; k < g; ++k)
       _middle[b * g + k]
-          = sums[b * (1 + g) + 1 + k] / std::max(_num_nodes[b], 1.0);
+          = sums[b * (1 + g) + 1 + k] / std::max(sums[b * (1 + g)], 1.0);
   }
   _radius.resize(count);
   for (std::size_t i = 0; i < owned.size(); ++i)

@@ -68,9 +68,6 @@ public:
   /// @brief Body of each node (shape=(num_nodes)).
   std::span<const std::int32_t> body() const { return _bodies->number(); }
 
-  /// @brief Number of nodes of each body (shape=(num_bodies)).
-  const std::vector<double>& num_nodes() const { return _num_nodes; }
-
   /// @brief For each body the modes that neither Dirichlet conditions nor the
   /// bulk's stiffness (springs, elastic supports) resist, as columns of
   /// coefficients.
@@ -102,7 +99,7 @@ private:
 
   std::shared_ptr<const mesh::Bodies> _bodies;
   int _gdim;
-  std::vector<double> _num_nodes, _middle, _radius;
+  std::vector<double> _middle, _radius;
   // Whether the bulk's stiffness has ever resisted a motion of a body
   std::vector<std::int8_t> _sprung;
   bool _is_first = true;

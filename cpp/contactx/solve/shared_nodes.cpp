@@ -18,10 +18,6 @@ namespace
 /// Length of a unit normal's part outside the span of others, from which on its
 /// constraint is independent of theirs
 constexpr double independent_normal_min = 0.1;
-/// The same where a node needs both constraints, and the number of times that
-/// the deepest one has changed in the step then
-constexpr double independent_normal_min_cycling = 1e-4;
-constexpr int max_flips = 2;
 
 /// Directions that constraints of a node span.
 class Span
@@ -76,12 +72,9 @@ SharedNodes::SharedNodes(
     for (std::size_t c = a; c < b; ++c)
       places.push_back({std::get<1>(all[c]), std::get<2>(all[c])});
   }
-  _deepest.assign(_shared.size(), -1);
-  _flips.assign(_shared.size(), 0);
 }
 
-std::vector<Shared> SharedNodes::update(const std::vector<Closing>& contacts,
-                                        bool first)
+std::vector<Shared> SharedNodes::update(const std::vector<Closing>& contacts)
 {
   if (contacts.size() != _sizes.size())
     throw std::invalid_argument("contacts must be as many as there were");
@@ -90,11 +83,6 @@ std::vector<Shared> SharedNodes::update(const std::vector<Closing>& contacts,
     check::rows(contacts[k].closes.size(), _sizes[k], 1, "closes");
     check::rows(contacts[k].gap.size(), _sizes[k], 1, "gap");
     check::rows(contacts[k].normal.size(), _sizes[k], 3, "normal");
-  }
-  if (first)
-  {
-    std::ranges::fill(_deepest, -1);
-    std::ranges::fill(_flips, 0);
   }
   _corners = 0;
   std::vector<Shared> result;
@@ -109,12 +97,12 @@ std::vector<Shared> SharedNodes::update(const std::vector<Closing>& contacts,
       if (contacts[place.contact].closes[place.node])
         closed.push_back(place);
     if (closed.size() > 1)
-      decide(s, contacts, closed, result);
+      decide(contacts, closed, result);
   }
   return result;
 }
 
-void SharedNodes::decide(std::size_t s, const std::vector<Closing>& contacts,
+void SharedNodes::decide(const std::vector<Closing>& contacts,
                          std::vector<Place>& closed,
                          std::vector<Shared>& result)
 {
@@ -129,13 +117,6 @@ void SharedNodes::decide(std::size_t s, const std::vector<Closing>& contacts,
                       place.contact);
   };
   std::ranges::sort(closed, {}, urgency);
-  const auto deepest = static_cast<std::int64_t>(closed.front().contact);
-  _flips[s] += _deepest[s] != -1 and _deepest[s] != deepest;
-  _deepest[s] = deepest;
-  const double independent = _flips[s] < max_flips
-                                 ? independent_normal_min
-                                 : independent_normal_min_cycling;
-
   Span span;
   std::vector<Place> kept;
   for (const Place& place : closed)
@@ -145,7 +126,7 @@ void SharedNodes::decide(std::size_t s, const std::vector<Closing>& contacts,
     std::copy_n(c.normal.begin() + 3 * place.node, 3, normal.begin());
     const Vector<3> rest = span.rest(normal);
     const double size = norm(rest);
-    if (not(size >= independent))
+    if (not(size >= independent_normal_min))
     {
       result[place.contact].redundant[place.node] = 1;
       continue;

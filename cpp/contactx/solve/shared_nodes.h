@@ -35,11 +35,9 @@ struct Shared
 ///
 /// The rule: of the contacts that a node closes, the deepest comes first, and
 /// one whose normal lies nearly in the span of the normals before it stays
-/// open, unless the node alternates between them: it needs both, as in a
-/// shallow valley. A node that closes several contacts slides without friction
-/// in all of them, so that its constraints are the independent normals alone. A
-/// tie constrains a node in every direction: the node's other contacts stay
-/// open.
+/// open. A node that closes several contacts slides without friction in all of
+/// them, so that its constraints are the independent normals alone. A tie
+/// constrains a node in every direction: the node's other contacts stay open.
 class SharedNodes
 {
 public:
@@ -58,9 +56,8 @@ public:
   /// @brief Decide which contacts of shared nodes may close, and where friction
   /// counts.
   /// @param[in] contacts The contacts at an iterate.
-  /// @param[in] first Whether it is the step's start.
   /// @throws std::invalid_argument if sizes do not fit; nothing has changed.
-  std::vector<Shared> update(const std::vector<Closing>& contacts, bool first);
+  std::vector<Shared> update(const std::vector<Closing>& contacts);
 
 private:
   struct Place
@@ -69,15 +66,12 @@ private:
     std::size_t node; // among the slave nodes of the contact
   };
 
-  void decide(std::size_t s, const std::vector<Closing>& contacts,
-              std::vector<Place>& closed, std::vector<Shared>& result);
+  void decide(const std::vector<Closing>& contacts, std::vector<Place>& closed,
+              std::vector<Shared>& result);
 
   std::vector<std::size_t> _sizes;
   std::vector<std::int32_t> _shared;
   std::vector<std::vector<Place>> _places; // of each shared node
-  // Contact that was the deepest, -1 before the first, and how often it changed
-  std::vector<std::int64_t> _deepest;
-  std::vector<int> _flips;
   std::int32_t _corners = 0;
 };
 } // namespace contactx::solve

@@ -130,13 +130,32 @@ TEST(Problem, StepsOfAPlanAreCutUntilTheyConverge)
     found.bulk->load[0] = t - reached > 0.3 ? not_a_number : 0;
   };
   StepPlan plan(StepPlan::equal(2), 2);
+  std::vector<AttemptRecord> log;
   while (not plan.finished())
   {
-    found.problem().advance(plan, update, solver);
+    found.problem().advance(plan, update, solver, {},
+                            [&](const auto& record) { log.push_back(record); });
     reached = plan.t();
     EXPECT_TRUE(found.problem().report().converged);
   }
   EXPECT_EQ(tried, (std::vector{0.5, 0.25, 0.5, 1.0, 0.75, 1.0}));
+  // A record for each attempt
+  std::vector<double> starts, ends;
+  std::vector<int> steps, attempts;
+  for (const AttemptRecord& record : log)
+  {
+    steps.push_back(record.step);
+    attempts.push_back(record.attempt);
+    starts.push_back(record.start);
+    ends.push_back(record.end);
+    EXPECT_EQ(record.failure.empty(), record.residual <= record.tolerance);
+  }
+  EXPECT_EQ(ends, tried);
+  EXPECT_EQ(starts, (std::vector{0., 0., 0.25, 0.5, 0.5, 0.75}));
+  EXPECT_EQ(steps, (std::vector{1, 1, 2, 3, 3, 4}));
+  EXPECT_EQ(attempts, (std::vector{1, 2, 1, 1, 2, 1}));
+  EXPECT_EQ(log.back().closed, 2);
+  EXPECT_EQ(log.back().solves, found.problem().report().history.back().number);
   // Too short a plan leaves all as it was
   const auto before = found.state();
   StepPlan stuck(StepPlan::equal(1), 1);
@@ -148,6 +167,21 @@ TEST(Problem, StepsOfAPlanAreCutUntilTheyConverge)
   EXPECT_EQ(tried.back(), 0);
   EXPECT_EQ(stuck.t(), 0);
   expect_same(found.state(), before);
+}
+
+TEST(Problem, AnAttemptIsALineOfALog)
+{
+  EXPECT_EQ(step_log_heading(),
+            "step attempt           t         dt solves  closed slipping  "
+            "residual tolerance  seconds  outcome");
+  EXPECT_EQ(
+      step_log_line({12, 1, 0.25, 0.5, 7, 40, 3, 1.25e-9, 2e-8, 0.125, ""}),
+      "  12       1         0.5       0.25      7      40        3  "
+      "1.25e-09     2e-08    0.125  accepted");
+  EXPECT_EQ(
+      step_log_line({1, 2, 0, 1, 50, 4, 0, 3, 1e-8, 1200, "no\nway"}),
+      "   1       2           1          1     50       4        0         "
+      "3     1e-08  1.2e+03  failed: no way");
 }
 
 TEST(Problem, LoadsAreSetBackWhereAStepOfAPlanThrows)

@@ -160,48 +160,6 @@ TEST(FreeBodies, NodesThatPenetrateTouchAtOnce)
   EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 1, 3}));
 }
 
-TEST(FreeBodies, BodiesMoveAsTheirNumbersOfNodesLetThem)
-{
-  // Under equal loads: the small one four times as fast
-  Truss truss{2, {}, {}};
-  truss.add_block(3, {0, 0, 0}, 1);
-  truss.add_block(1, {5, 0, 0}, 1);
-  for (const double gap : {0.19, 0.21})
-  {
-    FreeScene scene(truss);
-    const auto large = scene.add_contact(), small = scene.add_contact();
-    for (int i = 0; i < 4; ++i)
-      large->add(i, -1, {0, 1, 0}, 0.05);
-    small->add(16, -1, {0, 1, 0}, gap);
-    small->add(17, -1, {0, 1, 0}, gap);
-    std::vector<const NodeContact*> order;
-    for (const auto& contact : {large, small})
-      contact->on_close = [&order, c = contact.get()] { order.push_back(c); };
-    FreeBodies free = scene.begun();
-    std::vector<double> load = scene.push(0, down(2));
-    for (std::size_t i = 32; i < 40; ++i)
-      load[i] *= 4;
-    EXPECT_TRUE(free.stabilise(scene.loads(load)));
-    ASSERT_EQ(order.size(), 2);
-    EXPECT_EQ(order[0] == small.get(), gap < 0.2);
-  }
-}
-
-TEST(FreeBodies, ASupportMayGetItsStiffnessOnTheWay)
-{
-  Block block(2);
-  FreeBodies free = block.scene.begun();
-  for (double& spring : block.scene.bulk->ground)
-    spring = 1;
-  const auto forces = block.loads(down(2, -1));
-  free.stabilise(forces);
-  EXPECT_TRUE(free.is_unbalanced());
-  EXPECT_EQ(free.free_modes(), 3);
-  // It is looked for where nothing balances a body
-  free.stabilise(forces);
-  EXPECT_EQ(free.free_modes(), 0);
-}
-
 TEST(FreeBodies, NodesThatCannotCloseStayOpen)
 {
   Block block(2);
@@ -221,9 +179,7 @@ TEST(FreeBodies, APullThatNothingBalancesIsFound)
     EXPECT_FALSE(free.stabilise(block.loads(down(g, -1))));
     EXPECT_TRUE(free.is_unbalanced());
     EXPECT_EQ(free.free_modes(), num_modes(g));
-    // As stiff as what keeps it near
-    EXPECT_GT(stiffest(free),
-              1e-4 * std::ranges::max(block.scene.bulk->diagonal()));
+    EXPECT_EQ(num_springs(free), std::size_t(num_modes(g)));
     // A load that comes back to nothing
     EXPECT_FALSE(free.stabilise(block.loads(down(g, 0))));
     EXPECT_FALSE(free.is_unbalanced());

@@ -33,7 +33,7 @@ struct Node
   {
   }
 
-  void update(const std::vector<Side>& sides, bool first = false)
+  void update(const std::vector<Side>& sides)
   {
     std::vector<Closing> contacts;
     for (const Side& s : sides)
@@ -43,7 +43,7 @@ struct Node
                           {s.normal.data(), s.normal.size()}});
     redundant.clear();
     frictionless.clear();
-    for (const Shared& s : junctions.update(contacts, first))
+    for (const Shared& s : junctions.update(contacts))
     {
       redundant.push_back(s.redundant.at(0));
       frictionless.push_back(s.frictionless.at(0));
@@ -92,7 +92,7 @@ TEST(SharedNodes, FindTheNodesThatContactsShare)
 TEST(SharedNodes, InAWedgeANodeClosesBothAndSlides)
 {
   Node node(2);
-  node.update({{tilted(0.8)}, {tilted(-0.8), -0.5}}, true);
+  node.update({{tilted(0.8)}, {tilted(-0.8), -0.5}});
   EXPECT_EQ(node.redundant, Flags({0, 0}));
   EXPECT_EQ(node.frictionless, Flags({1, 1}));
   EXPECT_EQ(node.junctions.corners(), 1);
@@ -110,7 +110,7 @@ TEST(SharedNodes, InAShallowValleyTheDeepestComesFirst)
   for (double more : {-1e-3, 1e-3})
   {
     Node node(2);
-    node.update({{tilted(0)}, {tilted(angle + more), -2}}, true);
+    node.update({{tilted(0)}, {tilted(angle + more), -2}});
     EXPECT_EQ(node.redundant, Flags({more < 0, 0}));
     EXPECT_EQ(node.frictionless, Flags({more > 0, more > 0}));
     EXPECT_EQ(node.junctions.corners(), more > 0);
@@ -120,49 +120,8 @@ TEST(SharedNodes, InAShallowValleyTheDeepestComesFirst)
 TEST(SharedNodes, OfEqualGapsTheFirstContactCounts)
 {
   Node node(2);
-  node.update({{tilted(0)}, {tilted(0.01)}}, true);
+  node.update({{tilted(0)}, {tilted(0.01)}});
   EXPECT_EQ(node.redundant, Flags({0, 1}));
-}
-
-TEST(SharedNodes, ANodeThatGoesToAndFroInAShallowValleyNeedsBoth)
-{
-  Node node(2);
-  const auto deepest = [&node](int which, bool first = false)
-  {
-    node.update({{tilted(0), which == 0 ? -2. : -1},
-                 {tilted(0.01), which == 1 ? -2. : -1}},
-                first);
-  };
-  for (int step = 0; step < 2; ++step)
-  {
-    // A step forgets what was before
-    deepest(0, true);
-    EXPECT_EQ(node.redundant, Flags({0, 1}));
-    deepest(1);
-    EXPECT_EQ(node.redundant, Flags({1, 0}));
-    deepest(1);
-    EXPECT_EQ(node.redundant, Flags({1, 0}));
-    deepest(0);
-    EXPECT_EQ(node.redundant, Flags({0, 0}));
-    EXPECT_EQ(node.frictionless, Flags({1, 1}));
-    EXPECT_EQ(node.junctions.corners(), 1);
-    // And so it stays
-    deepest(0);
-    EXPECT_EQ(node.redundant, Flags({0, 0}));
-  }
-}
-
-TEST(SharedNodes, ANodeOnOneSideAloneDoesNotGoToAndFro)
-{
-  Node node(2);
-  for (int i = 0; i < 6; ++i)
-  {
-    node.update({{tilted(0), -2}, {tilted(0.01), -1}}, i == 0);
-    EXPECT_EQ(node.redundant, Flags({0, 1}));
-    // In one contact alone nothing is decided
-    node.update({{tilted(0), 1, false, 0}, {tilted(0.01), -1}});
-    EXPECT_EQ(node.redundant, Flags({0, 0}));
-  }
 }
 
 TEST(SharedNodes, TheSameNormalTwiceIsNeverKept)
@@ -171,7 +130,7 @@ TEST(SharedNodes, TheSameNormalTwiceIsNeverKept)
   for (int i = 0; i < 8; ++i)
   {
     const bool swap = i % 2;
-    node.update({{tilted(0.3), swap ? -1. : -2}, {tilted(0.3), -1.5}}, i == 0);
+    node.update({{tilted(0.3), swap ? -1. : -2}, {tilted(0.3), -1.5}});
     EXPECT_EQ(node.redundant, Flags({swap, not swap}));
     EXPECT_EQ(node.junctions.corners(), 0);
   }
@@ -183,15 +142,14 @@ TEST(SharedNodes, BesideATieOtherContactsStayOpen)
   for (double gap : {0., 1., none})
   {
     Node node(3);
-    node.update({{tilted(1.5), -9}, {tilted(0), gap, true}, {{0, 0, 1}, -7}},
-                true);
+    node.update({{tilted(1.5), -9}, {tilted(0), gap, true}, {{0, 0, 1}, -7}});
     EXPECT_EQ(node.redundant, Flags({1, 0, 1}));
     EXPECT_EQ(node.frictionless, Flags({0, 0, 0}));
     EXPECT_EQ(node.junctions.corners(), 0);
   }
   // Of two ties the second is too many
   Node node(2);
-  node.update({{tilted(1), 0, true}, {tilted(0), -1, true}}, true);
+  node.update({{tilted(1), 0, true}, {tilted(0), -1, true}});
   EXPECT_EQ(node.redundant, Flags({1, 0}));
 }
 
@@ -214,7 +172,7 @@ TEST(SharedNodes, KeepIndependentNormalsOfAnyNumber)
       sides.push_back({normal, random(-1, 0), false, random(0, 1) < 0.8});
     }
     Node node(n);
-    node.update(sides, true);
+    node.update(sides);
 
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), 0);
@@ -260,7 +218,7 @@ TEST(SharedNodes, DecideForEachNodeAlone)
     normal_b.insert(normal_b.end(), {1, 0, 0});
   const std::vector<Closing> contacts{{false, all, gap_a, normal_a},
                                       {false, some, gap_b, normal_b}};
-  const auto result = junctions.update(contacts, true);
+  const auto result = junctions.update(contacts);
   // Node 8 alone closes both
   EXPECT_EQ(result[0].frictionless, Flags({0, 0, 1}));
   EXPECT_EQ(result[1].frictionless, Flags({1, 0}));
@@ -276,11 +234,11 @@ TEST(SharedNodes, RefuseWhatDoesNotFit)
   const Flags one{1}, two{1, 1};
   const std::vector<double> gap{0}, normal{0, 1, 0}, flat{0, 1};
   const Closing good{false, one, gap, normal};
-  EXPECT_THROW(junctions.update({good}, true), std::invalid_argument);
-  EXPECT_THROW(junctions.update({good, {false, two, gap, normal}}, true),
+  EXPECT_THROW(junctions.update({good}), std::invalid_argument);
+  EXPECT_THROW(junctions.update({good, {false, two, gap, normal}}),
                std::invalid_argument);
-  EXPECT_THROW(junctions.update({good, {false, one, flat, normal}}, true),
+  EXPECT_THROW(junctions.update({good, {false, one, flat, normal}}),
                std::invalid_argument);
-  EXPECT_THROW(junctions.update({good, {false, one, gap, flat}}, true),
+  EXPECT_THROW(junctions.update({good, {false, one, gap, flat}}),
                std::invalid_argument);
 }

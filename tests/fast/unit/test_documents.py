@@ -7,6 +7,7 @@ of figures name scripts that are there; for the figures see tests/fast/manual.
 """
 
 import ast
+import json
 import re
 from pathlib import Path
 
@@ -151,9 +152,28 @@ def sources(name: str) -> list[Path]:
     return [path for path in found if path.is_file()]
 
 
-def test_there_are_rules():
-    assert 60 < len(OF_METHOD) < 95
+def test_rules_are_few():
+    """Definitions change the answer, refusals keep wrong ones from being taken, rules neither."""
+    text = (THEORY / "rules.md").read_text(encoding="utf-8")
+    parts = re.split(r"^## (Definitions|Refusals|Rules: status)", text, flags=re.M)
+    definitions, refusals, method = (
+        sum(line.startswith("| ") and line.count(" | ") == 3 for line in part.splitlines())
+        - part.count("| rule |")
+        for part in (parts[2], parts[4], parts[6].split("## What was measured")[0])
+    )
+    assert len(OF_METHOD) == definitions + refusals + method
+    assert f"{definitions} definitions, {refusals} refusals and {method} rules" in text
+    assert method <= 45
     assert 0 < len(OF_SOLVER) <= 8
+
+
+def test_rules_can_be_switched_off():
+    """Each text that tools/stress/without.py replaces is there once."""
+    for rule in json.loads((ROOT / "tools" / "stress" / "rules.json").read_text(encoding="utf-8")):
+        for change in rule["off"]:
+            text = (ROOT / "cpp" / "contactx" / change["file"]).read_text(encoding="utf-8")
+            assert text.count(change["old"]) == 1, (rule["name"], change["old"])
+            assert "OFF" in change["new"]
 
 
 @pytest.mark.parametrize("row", RULES, ids=lambda row: row[0][:60])

@@ -3,6 +3,7 @@
 """Loops over load steps: order of calls, cuts, failures, interrupts, what is shown."""
 
 import io
+import logging
 import warnings
 
 import numpy as np
@@ -253,6 +254,53 @@ def test_silence(capsys):
         pass
     # No terminal: no bar, but the table
     assert capsys.readouterr().out.startswith("┏")
+
+
+def test_a_log_has_a_line_for_each_attempt(tmp_path, caplog):
+    scene, path = Sheared(), tmp_path / "runs" / "run.log"
+    with caplog.at_level(logging.INFO, "contactx.steps"):
+        for k, step in enumerate(scene.steps(1, log=path)):
+            # Lines are on disk before the loop's body runs
+            lines = path.read_text().splitlines()
+            assert len(lines) == len(caplog.messages) + 1 == [3, 5, 6][k]
+            assert lines[-1].endswith("accepted") and step.t == float(lines[-1].split()[2])
+    heading, *lines = path.read_text().splitlines()
+    assert lines == caplog.messages
+    rows = [dict(zip(heading.split(), line.split(), strict=False)) for line in lines]
+    assert [(row["step"], row["attempt"]) for row in rows] == [
+        ("1", "1"), ("1", "2"), ("2", "1"), ("2", "2"), ("3", "1"),
+    ]  # fmt: skip
+    assert [float(row["t"]) for row in rows] == scene.calls
+    assert [float(row["dt"]) for row in rows] == [1.0, 0.5, 0.5, 0.25, 0.25]
+    assert all(("failed: " in line) == (k in (0, 2)) for k, line in enumerate(lines))
+    solves = [int(row["solves"]) for row in rows]
+    report = scene.problem.report
+    assert solves[-1] == report.iterations and min(solves) > 0
+    assert int(rows[-1]["closed"]) == report.history[-1].closed > 0
+    assert float(rows[-1]["residual"]) <= float(rows[-1]["tolerance"])
+
+
+def test_a_restarted_run_goes_on_in_its_log(tmp_path):
+    log, saved = tmp_path / "run.log", tmp_path / "run.npz"
+    for step in Sheared().steps(4, log=log, checkpoint=saved):
+        if step.index == 2:
+            break
+    Sheared().steps(4, log=log, restart=saved, checkpoint=saved)
+    before = log.read_text()
+    for _ in (steps := Sheared().steps(4, log=log, restart=saved)):
+        pass
+    assert log.read_text().startswith(before) and steps.t == 1
+    # The loop was left before its body had ended, so that step 2 comes again
+    assert [line.split()[0] for line in log.read_text().splitlines() if "accepted" in line] == [
+        "1", "2", "2", "3", "4",
+    ]  # fmt: skip
+
+
+def test_iterates_are_logged_for_who_asks(caplog):
+    with caplog.at_level(logging.DEBUG, "contactx.iterates"):
+        step = next(iter(Sheared().steps(4)))
+    assert len(caplog.messages) == step.iterations + 1
+    assert "number=0" in caplog.messages[0]
 
 
 def test_a_step_starts_from_an_extrapolation_of_the_last_one():

@@ -16,7 +16,7 @@ from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
-from scenes import CELLS, Blocks, dimension
+from scenes import CELLS, Blocks
 from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from scenes.problems import make_problem
 from story import displacement, elasticity
@@ -24,19 +24,6 @@ from story import displacement, elasticity
 pytestmark = pytest.mark.usefixtures("method")
 
 PRESSURE = 0.01
-
-
-def rolls(cell, friction, sliding, method):
-    """Whether mean normals of two facets leave a rotation free, as if on an arc.
-
-    In the plane the forces of two nodes meet in a point, the common centre of curvature, and a
-    rotation about it changes no gap: only the geometric stiffness holds a block.
-    """
-    return (
-        dimension(cell) == 2
-        and friction == 0
-        and (sliding, method) == ("finite", "surface-to-surface")
-    )
 
 
 class FreeBlock:
@@ -61,19 +48,9 @@ class FreeBlock:
         return self.problem.report
 
 
-def assert_refused(scene):
-    """What is not solved is named, and nothing has moved."""
-    with pytest.raises(cx.ConvergenceError, match="cannot be balanced"):
-        scene.solve()
-    assert not scene.u.x.array.any()
-
-
 @covering(cell=CELLS, friction=(0.0, 0.5), gap=(0.0, 0.1), **{"sliding,method": BOTH})
 def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
     scene = FreeBlock(cell, friction=friction, gap=gap, sliding=sliding)
-    if rolls(cell, friction, sliding, method):
-        assert_refused(scene)
-        return
     report = scene.solve()
     closed, free = report.closed_for_balance, report.free_modes
     print(report.iterations, "iterations", closed, "closed", free, "free")
@@ -87,9 +64,15 @@ def test_a_block_comes_to_rest_on_another(cell, friction, gap, sliding, method):
 
 
 @covering(method=METHODS[1:], cell=CELLS[:2])
-def test_mean_normals_leave_a_plane_block_free(cell, method):
-    assert rolls(cell, 0.0, "finite", method)
-    assert_refused(FreeBlock(cell))
+def test_a_plane_block_that_mean_normals_leave_free_is_held(cell, method):
+    """In the plane the forces of two nodes meet in a point, the common centre of curvature.
+
+    A rotation about it changes no gap: only the geometric stiffness holds a block.
+    """
+    scene = FreeBlock(cell)
+    scene.solve()
+    assert np.abs(scene.contact.force + scene.load).max() <= 1e-9 * PRESSURE
+    assert np.abs(scene.u.x.array.reshape(-1, 2)[:, 0]).max() <= 0.05
 
 
 @covering(cell=(CellType.triangle, CellType.hexahedron), gap=(0.0, 0.1), method=METHODS)
@@ -121,9 +104,6 @@ def test_touching_without_force_is_no_trouble(cell, friction, method):
     assert not scene.u.x.array.any()
     # The load may follow, and go away again
     with_load = FreeBlock(cell, friction=friction)
-    if rolls(cell, friction, "finite", method):
-        assert_refused(with_load)
-        return
     with_load.solve()
     assert np.abs(with_load.contact.force[-1] - PRESSURE) <= 1e-9 * PRESSURE
 
