@@ -61,6 +61,9 @@ struct Findings
   /// where nodes are inside the master their facets are, too
   bool penetrates_too_deep = false;
   double facet_size = 0; ///< size of the largest slave facet
+  /// Distance across which facets press that are integrated, though nothing
+  /// touches; zero where something does, or nothing presses
+  double apart = 0;
   /// Of an obstacle that is curved where nodes touch it; nothing of others
   std::optional<Roundness> roundness{};
   /// Of two bodies whose round surfaces fit each other; nothing of others
@@ -73,7 +76,8 @@ struct Findings
   /// @brief True if the iterate is wrong.
   bool is_fault() const
   {
-    return passed.count > 0 or inside.count > 0 or penetrates_too_deep;
+    return passed.count > 0 or inside.count > 0 or penetrates_too_deep
+           or apart > 0;
   }
 };
 

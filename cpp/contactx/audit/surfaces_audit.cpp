@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 using namespace contactx;
@@ -25,6 +26,10 @@ namespace
 constexpr double edge_overlap_min = 1. / 16;
 // Largest depth of a node without a pair behind a facet, over the facet's size
 constexpr double unpaired_depth_max = 1. / 32;
+// Distance across which facets may press that are integrated, over their size:
+// what the master may be deep between nodes. Tips on arms, which are right,
+// were up to 0.1 apart; one that had slid off its facet, 0.2
+constexpr double distance_max = 0.15;
 // Values of a slave facet for the master's nodes, see see_slave
 constexpr int num_probe_values = 8;
 
@@ -112,6 +117,7 @@ Findings SurfacesAudit::find(std::span<const double> start)
   if (findings.passed.count == 0)
     findings.inside = look_from_slave(x);
   look_from_master(x, findings);
+  findings.apart = look_across(x, findings.facet_size);
   findings.chords = chords(*_halo, *_contact);
   warn(findings, findings.chords, findings.edges);
   findings.penetrates_too_deep = not findings.is_fault() and findings.deepest
@@ -379,4 +385,44 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
     mine = Depth{excess[k], depth[k], size[k], near[k] > 1,
                  rows_of(positions, std::span(&_points[there[k]], 1), g)};
   findings.deepest = deepest(_halo->ranks(), mine, g);
+}
+
+/// Distance between the surfaces if they press though nothing touches, else
+/// zero.
+///
+/// Dual functions have both signs: on facets that are covered in part a mean
+/// gap may be zero though there is a gap everywhere.
+double SurfacesAudit::look_across(std::span<const double> x, double facet_size)
+{
+  if (not _contact->integrates() or is_small())
+    return 0;
+  const int g = _halo->gdim();
+  mesh::Ranks& ranks = _halo->ranks();
+  const auto slaves = _contact->slaves().owned();
+  const law::NodeState& state = *_contact->nodes();
+  std::vector<std::int32_t> nodes;
+  double allowed = 0;
+  for (std::size_t i = 0; i < slaves.size(); ++i)
+    if (state.closed(i) and state.pressure(i) > 0)
+    {
+      nodes.push_back(slaves[i]);
+      allowed = std::max(allowed, std::abs(_contact->offset()[i]));
+    }
+  if (not mesh::anywhere(ranks, not nodes.empty()))
+    return 0;
+  allowed = distance_max * facet_size + mesh::largest(ranks, allowed);
+  const auto least
+      = [&](search::SurfaceProbe& probe, std::span<const std::int32_t> points)
+  {
+    const search::ProbeResult seen
+        = probe.query(x, rows_of(x, points, g),
+                      std::vector<double>(points.size() * g, 0), 2 * allowed);
+    return mesh::least(ranks, seen.distance.empty()
+                                  ? std::numeric_limits<double>::infinity()
+                                  : std::ranges::min(seen.distance));
+  };
+  double distance = least(_master->outside()->probe(), nodes);
+  if (distance > allowed)
+    distance = std::min(distance, least(_at_slave, _points));
+  return distance > allowed ? std::min(distance, 2 * allowed) : 0;
 }

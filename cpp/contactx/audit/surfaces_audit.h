@@ -55,6 +55,7 @@ private:
   search::ProbeResult see_slave(const Configuration& now,
                                 std::span<const double> normals);
   void look_from_master(std::span<const double> positions, Findings& findings);
+  double look_across(std::span<const double> x, double facet_size);
 
   std::shared_ptr<mesh::Halo> _halo;
   std::shared_ptr<contact::Contact> _contact;

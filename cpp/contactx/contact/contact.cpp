@@ -234,6 +234,7 @@ void Contact::begin_step()
   for (std::size_t i = 0; i < _touched.size(); ++i)
     _touched[i] = _nodes->closed(i);
   _is_predicted = false;
+  std::ranges::fill(_nodes->slip_reversals, 0);
   if (sliding() == Sliding::small and _master->is_rigid())
   {
     const auto reference = _halo->reference();

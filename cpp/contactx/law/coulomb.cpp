@@ -47,7 +47,7 @@ struct Node
   {
   }
 
-  Status status() const
+  Status status(bool sticks_first) const
   {
     // False for the gap NaN, too
     if (!(p_hat > 0))
@@ -57,7 +57,7 @@ struct Node
       return Status::stick;
     // Slip that reverses has passed a state of rest: without this, nodes that
     // overshoot under full friction chatter
-    const bool reverses = size < reversal_max * bound
+    const bool reverses = sticks_first and size < reversal_max * bound
                           and t.dot(t_hat) < -reversal_min * bound * size;
     return reverses ? Status::stick : Status::slip;
   }
@@ -204,7 +204,8 @@ std::int32_t set_status(const FrictionalState& state,
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Status now = Node<D>(state, i, status[i] != open).status();
+    const Status now
+        = Node<D>(state, i, status[i] != open).status(state.sticks_first);
     changed += now != status[i];
     status[i] = now;
   }

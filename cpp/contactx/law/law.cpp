@@ -46,6 +46,21 @@ double edge(double pressure, double highest)
   return pressure > 0 ? std::min(bound_rel_tol * highest / pressure, 0.5) : 0.5;
 }
 
+/// Whether the trial friction of a node exceeds a bound.
+bool exceeds(const NodeState& nodes, std::size_t i, double bound)
+{
+  const std::size_t gdim = nodes.gdim();
+  const double p = nodes.pressure(i), c = nodes.tangential_ratio * nodes.c[i];
+  double size = 0;
+  for (std::size_t k = gdim * i; k < gdim * (i + 1); ++k)
+  {
+    const double trial
+        = nodes.multiplier[k] - p * nodes.normal[k] - c * nodes.slip[k];
+    size += trial * trial;
+  }
+  return std::sqrt(size) > bound;
+}
+
 std::vector<double> pressures(const NodeState& nodes)
 {
   std::vector<double> p(nodes.status.size());
@@ -214,18 +229,30 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
     if (nodes.status[i] == slip)
       found.bound[i] *= 1 - edge(nodes.pressure(i), highest);
 
+  const auto before = nodes.status;
   const auto gap = closable_gaps(nodes);
-  return frictional_status({nodes.gdim(),
-                            nodes.multiplier,
-                            gap,
-                            nodes.normal,
-                            nodes.slip,
-                            nodes.c,
-                            found.by_pressure,
-                            found.bound,
-                            {},
-                            nodes.tangential_ratio},
-                           nodes.status);
+  frictional_status({nodes.gdim(),
+                     nodes.multiplier,
+                     gap,
+                     nodes.normal,
+                     nodes.slip,
+                     nodes.c,
+                     found.by_pressure,
+                     found.bound,
+                     {},
+                     nodes.tangential_ratio,
+                     not nodes.is_shown},
+                    nodes.status);
+  std::int32_t changed = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    std::int8_t& now = nodes.status[i];
+    if (before[i] == slip and now == stick and exceeds(nodes, i, found.bound[i])
+        and nodes.slip_reversals[i]++ % 2 == 1)
+      now = slip;
+    changed += now != before[i];
+  }
+  return changed;
 }
 
 void Coulomb::evaluate(NodeState& nodes) const

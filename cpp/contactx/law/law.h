@@ -127,7 +127,9 @@ public:
 
   /// @copydoc Law::set_status
   ///
-  /// At the friction bound a node that slips keeps slipping.
+  /// At the friction bound a node that slips keeps slipping. One whose slip
+  /// reverses sticks first, and slips at the second reversal: one that opens
+  /// only while it slips back would alternate without end.
   std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const override;
   void evaluate(NodeState& nodes) const override;
 

@@ -43,6 +43,7 @@ NodeState::NodeState(std::int32_t num_nodes, int gdim, bool is_vector,
   mobile.assign(rows * gdim, 1.0);
   redundant.assign(n, 0);
   frictionless.assign(n, 0);
+  slip_reversals.assign(n, 0);
   value.assign(n * _size, 0.0);
   by_multiplier.assign(n * _size * _size, 0.0);
   by_gap.assign(n * _size, 0.0);

@@ -81,6 +81,10 @@ public:
   std::vector<std::int8_t> frictionless;
   /// Complementarity factor along the surface, as a part of c
   double tangential_ratio = 1;
+  /// How often slip has turned back in this step (shape=(n))
+  std::vector<std::int32_t> slip_reversals;
+  /// Whether an interior-point method has shown the status
+  bool is_shown = false;
   /// Where the nodes are while an interior-point method solves
   std::optional<Interior> interior;
 

@@ -97,6 +97,16 @@ void contactx::problem::add(AuditReport& report, const std::string& name,
           "at "
         + point_text(found.passed.at, found.facet_size)
         + ". Take smaller load steps (manual: errors/passed-through)");
+  if (found.apart > 0)
+    report.faults.push_back(
+        name + ": the surfaces press across a distance of "
+        + number_text(found.apart, 2)
+        + " or more, though slave facets have the size "
+        + number_text(found.facet_size, 3)
+        + " and nothing touches: the slave surface is too coarse to see an "
+          "edge "
+          "of the master. Swap slave and master, or refine the slave surface "
+          "(manual: errors/slave-too-coarse)");
   const bool is_small = contact.sliding() == contact::Sliding::small;
   add_inside(report, name, "master, and have no pair with it", found, size,
              is_small ? unpaired : far);

@@ -216,7 +216,8 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
       return judge_path(rtol, atol, b);
     }
     if (not _path.is_trial()
-        and _path.begins(_active_set.changes(), closed, max_increment()))
+        and _path.begins(_active_set.changes(), closed, max_increment(),
+                         _iterate.residual))
     {
       _path.start();
       return judge_path(rtol, atol, b);

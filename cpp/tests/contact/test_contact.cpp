@@ -552,6 +552,17 @@ TYPED_TEST(Contacts, FactorIsTheStiffnessOfSlaveAndMasterInARow)
   }
 }
 
+TEST(Contact, ReversalsAreThoseOfAStep)
+{
+  ContactScene scene(2);
+  const std::int32_t n = scene.sheets.num_slaves;
+  const auto contact = scene.contact<NodeToSurface>(coulomb(n, 0.5));
+  law::NodeState& nodes = *contact->nodes();
+  std::ranges::fill(nodes.slip_reversals, 1);
+  contact->begin_step();
+  EXPECT_EQ(nodes.slip_reversals, std::vector<std::int32_t>(n, 0));
+}
+
 TEST(Contact, TractionsTurnWithTheMaster)
 {
   for (int dim : {2, 3})

@@ -183,6 +183,45 @@ TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
   EXPECT_EQ(a.nodes.status[0], stick);
 }
 
+TEST(CoulombLaw, SlipThatTurnsBackSticksFirst)
+{
+  FrictionState a(1);
+  for (int k = 0; k < 4; ++k)
+  {
+    // mu p = 1, t_hat = 0.5 - 8 * 0.5 against t
+    a.set(0, slip, 2, 0.5, 0.5);
+    // It counts in the end: the second turn asks for slip
+    EXPECT_EQ(a.update(), k % 2 == 0);
+    EXPECT_EQ(a.nodes.status[0], k % 2 == 0 ? stick : slip) << k;
+    EXPECT_EQ(a.nodes.slip_reversals[0], k + 1);
+  }
+  // What sticks within the bound has not turned back
+  a.nodes.slip_reversals[0] = 1;
+  a.set(0, slip, 2, 0.5, 0);
+  EXPECT_EQ(a.update(), 1);
+  EXPECT_EQ(a.nodes.status[0], stick);
+  EXPECT_EQ(a.nodes.slip_reversals[0], 1);
+  // mu p_hat = 1.4 where it penetrates
+  a.set(0, slip, 2, 1.2, 0);
+  a.nodes.gap[0] = -0.1;
+  EXPECT_EQ(a.update(), 1);
+  EXPECT_EQ(a.nodes.status[0], stick);
+  EXPECT_EQ(a.nodes.slip_reversals[0], 1);
+  // Nor has what stuck before
+  a.set(0, stick, 2, 0.5, 0.5);
+  EXPECT_EQ(a.update(), 0);
+  EXPECT_EQ(a.nodes.slip_reversals[0], 1);
+}
+
+TEST(CoulombLaw, SlipThatAnInteriorPointHasShownIsLeft)
+{
+  FrictionState a(1);
+  a.nodes.is_shown = true;
+  a.set(0, slip, 2, 0.5, 0.5);
+  EXPECT_EQ(a.update(), 0);
+  EXPECT_EQ(a.nodes.status[0], slip);
+}
+
 TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
 {
   // mu p = 1, and c = 8: trial friction is 1.1 or 0.9
