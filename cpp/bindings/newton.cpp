@@ -14,6 +14,7 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using namespace contactx::solve;
 using contactx::mesh::Halo;
+using contactx::solve::ActiveSet;
 using contactx::solve::FreeBodies;
 using contactx::solve::StepLength;
 
@@ -83,6 +84,8 @@ void contactx_bindings::newton(py::module_& m)
       .def("scale", &Convergence::scale);
 
   py::class_<Loop>(m, "Loop", "Newton's method but for the linear solves")
+      .def_property_readonly("active_set", &Loop::active_set,
+                             py::return_value_policy::reference_internal)
       .def_property_readonly("free_bodies", &Loop::free_bodies,
                              py::return_value_policy::reference_internal)
       .def_property_readonly("convergence", &Loop::convergence,
@@ -106,6 +109,9 @@ void contactx_bindings::newton(py::module_& m)
           { return self.size_of(view(dx)); }, py::arg("dx"))
       .def("bar_path", &Loop::bar_path)
       .def("changing", &Loop::changing);
+
+  py::class_<ActiveSet>(m, "ActiveSet", "Pairs and status of all contacts")
+      .def_property_readonly("cycles", &ActiveSet::cycles);
 
   py::class_<StepLength>(m, "StepLength", "How much of a step is taken")
       .def("begin", &StepLength::begin, py::arg("size"),

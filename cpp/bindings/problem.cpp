@@ -105,6 +105,7 @@ Attributes:
       .def_readonly("interior", &Report::interior)
       .def_readonly("limited", &Report::limited)
       .def_readonly("shortened", &Report::shortened)
+      .def_readonly("cycles", &Report::cycles)
       .def_readonly("corners", &Report::corners)
       .def_readonly("free_modes", &Report::free_modes)
       .def_readonly("closed_for_balance", &Report::closed_for_balance)

@@ -311,7 +311,8 @@ class ContactAssembler:
     def settle(self, rtol: float = 1e-11, atol: float = 0.0, max_it: int = 50) -> core.Settled:
         """Update pairs and active set at an accepted iterate, and test its residual.
 
-        The iterate may change a little: the drift of free bodies is subtracted.
+        The iterate may change a little: where iterates cycle, part of the last step is taken back,
+        and the drift of free bodies is subtracted.
 
         Args:
             rtol: Tolerance relative to the forces of the problem.

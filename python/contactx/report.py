@@ -31,6 +31,7 @@ _OF_CORE = (
     "interior",
     "limited",
     "shortened",
+    "cycles",
     "corners",
     "free_modes",
     "closed_for_balance",
@@ -151,6 +152,7 @@ class Report:
         interior: Iterates of the interior point, each of two linear solves.
         limited: Newton steps that were shortened so as not to turn a cell inside out.
         shortened: Newton steps that were damped.
+        cycles: How often the active set cycled and steps were shortened.
         free_modes: Rigid modes of free bodies, at the end; the forces along them balance.
         closed_for_balance: Nodes that were closed since a free body would touch there first.
         slipping: Slave nodes that slip against friction.
@@ -188,6 +190,7 @@ class Report:
     interior: int = 0
     limited: int = 0
     shortened: int = 0
+    cycles: int = 0
     free_modes: int = 0
     closed_for_balance: int = 0
     slipping: int = 0
@@ -298,6 +301,8 @@ class Report:
         ]
         if any(acted):
             lines.append(", ".join(text for text in acted if text))
+        if self.cycles:
+            lines.append(f"the status came back {self.cycles} times; steps were shortened")
         if self.corners:
             lines.append(
                 f"{self.corners} nodes close several contacts at once: without friction, and only "

@@ -227,6 +227,7 @@ void Contact::begin_step()
 {
   _skipped_searches = 0;
   _multiplier = _nodes->multiplier;
+  _law->begin_step();
   _master->rebuild();
   freeze(false);
   turn_tractions();
@@ -235,6 +236,7 @@ void Contact::begin_step()
     _touched[i] = _nodes->closed(i);
   _is_predicted = false;
   std::ranges::fill(_nodes->slip_reversals, 0);
+  std::ranges::fill(_nodes->slip_closings, 0);
   if (sliding() == Sliding::small and _master->is_rigid())
   {
     const auto reference = _halo->reference();

@@ -11,15 +11,6 @@ using namespace contactx::law;
 
 namespace
 {
-/// Part of the bound by which the traction of before opposes the trial
-/// friction, from which on slip has reversed
-constexpr double reversal_min = 0.05;
-/// Trial friction over the bound up to which slip that reverses sticks first:
-/// an overshoot is not much larger than the deformation by friction. From 3 to
-/// 100 differ by little; without it small coefficients take three times the
-/// work
-constexpr double reversal_max = 10;
-
 template <int D>
 using Vec = Eigen::Matrix<double, D, 1>;
 
@@ -47,7 +38,7 @@ struct Node
   {
   }
 
-  Status status(bool sticks_first) const
+  Status status(double reach) const
   {
     // False for the gap NaN, too
     if (!(p_hat > 0))
@@ -56,10 +47,11 @@ struct Node
     if (bound > 0 and size <= bound)
       return Status::stick;
     // Slip that reverses has passed a state of rest: without this, nodes that
-    // overshoot under full friction chatter
-    const bool reverses = sticks_first and size < reversal_max * bound
-                          and t.dot(t_hat) < -reversal_min * bound * size;
-    return reverses ? Status::stick : Status::slip;
+    // overshoot under full friction chatter. The overshoot is not much larger
+    // than the deformation by friction
+    const bool back
+        = size < reach * bound and t.dot(t_hat) < -0.05 * bound * size;
+    return back ? Status::stick : Status::slip;
   }
 
   Vec<D> lambda, n, slip;
@@ -198,14 +190,13 @@ void write(const Terms<D>& r, double area, std::size_t i,
 }
 
 template <int D>
-std::int32_t set_status(const FrictionalState& state,
+std::int32_t set_status(const FrictionalState& state, double reach,
                         std::span<std::int8_t> status)
 {
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < status.size(); ++i)
   {
-    const Status now
-        = Node<D>(state, i, status[i] != open).status(state.sticks_first);
+    const Status now = Node<D>(state, i, status[i] != open).status(reach);
     changed += now != status[i];
     status[i] = now;
   }
@@ -239,10 +230,11 @@ void evaluate(const FrictionalState& state, std::span<const double> area,
 } // namespace
 
 std::int32_t contactx::law::frictional_status(const FrictionalState& state,
+                                              double reach,
                                               std::span<std::int8_t> status)
 {
-  return state.gdim == 2 ? set_status<2>(state, status)
-                         : set_status<3>(state, status);
+  return state.gdim == 2 ? set_status<2>(state, reach, status)
+                         : set_status<3>(state, reach, status);
 }
 
 void contactx::law::frictional_complementarity(

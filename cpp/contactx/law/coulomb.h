@@ -25,8 +25,6 @@ struct FrictionalState
   std::span<const double> bound_by_slip = {};
   /// Complementarity factor along the surface, as a part of c
   double along = 1;
-  /// Whether a node whose slip reverses sticks first
-  bool sticks_first = true;
 };
 
 /// @brief Complementarity function and its derivatives, forces: vectors and
@@ -46,12 +44,13 @@ struct FrictionalLaw
 /// `along`: open where p_hat <= 0,
 /// else stick where |t_hat| <= mu p_hat > 0, else slip (Alart & Curnier 1991;
 /// there p_hat = p - c g, see `pressure_hat`). A node
-/// whose trial friction opposes t sticks first, if t_hat is not too long and
-/// `sticks_first`; at a solution both agree.
+/// whose trial friction opposes t sticks first, if t_hat is not too long; at a
+/// solution both agree.
 /// @param[in] state State.
+/// @param[in] reach Length of t_hat, over mu p_hat, up to which it does.
 /// @param[in,out] status Status of each node.
 /// @return Number of nodes that changed.
-std::int32_t frictional_status(const FrictionalState& state,
+std::int32_t frictional_status(const FrictionalState& state, double reach,
                                std::span<std::int8_t> status);
 
 /// @brief Complementarity function of contact with Coulomb friction, times the

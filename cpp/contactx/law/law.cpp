@@ -21,6 +21,9 @@ namespace
 // is its bound: what Newton's method leaves at the end of a step, which starts
 // the next one, and linear solves within it
 constexpr double bound_rel_tol = 1e-6;
+// Growth of the largest trial friction of a reversal after each cycle of the
+// active set
+constexpr double reach_growth = 1e3;
 
 /// What is thrown for other multipliers than those of a law.
 void check_multipliers(const Law& law, const NodeState& nodes)
@@ -105,6 +108,10 @@ void Frictionless::evaluate(NodeState& nodes) const
                            nodes.status, nodes.value, nodes.by_multiplier,
                            nodes.by_gap);
 }
+
+void Coulomb::begin_step() { _reach = _initial_reach; }
+
+void Coulomb::allow_larger_friction() { _reach *= reach_growth; }
 
 void Coulomb::set_friction(std::span<const double> friction)
 {
@@ -240,16 +247,25 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
                      found.by_pressure,
                      found.bound,
                      {},
-                     nodes.tangential_ratio,
-                     not nodes.is_shown},
-                    nodes.status);
+                     nodes.tangential_ratio},
+                    _reach, nodes.status);
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
   {
     std::int8_t& now = nodes.status[i];
-    if (before[i] == slip and now == stick and exceeds(nodes, i, found.bound[i])
-        and nodes.slip_reversals[i]++ % 2 == 1)
-      now = slip;
+    if (before[i] == open and now == slip and found.bound[i] > 0)
+    {
+      if (nodes.slip_closings[i] % 4 == 3)
+        now = stick;
+      ++nodes.slip_closings[i];
+    }
+    else if (before[i] == slip and now == stick
+             and exceeds(nodes, i, found.bound[i]))
+    {
+      if (nodes.slip_reversals[i] % 2 == 1)
+        now = slip;
+      ++nodes.slip_reversals[i];
+    }
     changed += now != before[i];
   }
   return changed;

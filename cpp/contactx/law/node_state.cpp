@@ -44,6 +44,7 @@ NodeState::NodeState(std::int32_t num_nodes, int gdim, bool is_vector,
   redundant.assign(n, 0);
   frictionless.assign(n, 0);
   slip_reversals.assign(n, 0);
+  slip_closings.assign(n, 0);
   value.assign(n * _size, 0.0);
   by_multiplier.assign(n * _size * _size, 0.0);
   by_gap.assign(n * _size, 0.0);

@@ -79,12 +79,12 @@ public:
   /// 1 where friction is left out because a node closes several contacts
   /// (shape=(n))
   std::vector<std::int8_t> frictionless;
-  /// Complementarity factor along the surface, as a part of c
-  double tangential_ratio = 1;
   /// How often slip has turned back in this step (shape=(n))
   std::vector<std::int32_t> slip_reversals;
-  /// Whether an interior-point method has shown the status
-  bool is_shown = false;
+  /// How often nodes have closed with slip in this step (shape=(n))
+  std::vector<std::int32_t> slip_closings;
+  /// Complementarity factor along the surface, as a part of c
+  double tangential_ratio = 1;
   /// Where the nodes are while an interior-point method solves
   std::optional<Interior> interior;
 

@@ -112,7 +112,8 @@ void CondensedSolver::solve(std::span<const double> b, std::span<double> x)
       _accuracy.set(now.tolerance, now.tolerance, 0);
     }
     else
-      _accuracy.set(now.residual, now.tolerance, loop.changing());
+      _accuracy.set(now.residual, now.tolerance, loop.changing(),
+                    loop.active_set().cycles() > 0);
   }
   ++_statistics.solves;
   _is_predicted = false;

@@ -703,6 +703,7 @@ void Problem::summarise()
   _report.interior = _loop.path().iterations();
   _report.limited = _loop.length().limited();
   _report.shortened = _loop.length().damped();
+  _report.cycles = active_set.cycles();
   _report.corners = active_set.num_corners();
   _report.free_modes = bodies.free_modes();
   _report.closed_for_balance = bodies.closed_for_balance();

@@ -100,6 +100,7 @@ struct Report
   int interior = 0;              ///< iterates of the interior point
   int limited = 0;               ///< steps that cells have limited
   int shortened = 0;             ///< steps that were damped
+  int cycles = 0;                ///< how often a status has come back
   std::int64_t corners = 0;      ///< nodes that close several contacts
   std::int64_t free_modes = 0;   ///< rigid modes that are left free
   /// Nodes that were closed to balance a free body
@@ -271,8 +272,8 @@ public:
   /// @brief Read what a user may have changed since the last call, update pairs
   /// and active set at an accepted iterate, and judge its residual.
   ///
-  /// The iterate may change by a little: what free bodies have drifted by is
-  /// taken back.
+  /// The iterate may change by a little: where the active set cycles, part of
+  /// the last step is taken back, and so is what free bodies have drifted by.
   /// @param[in] rtol Tolerance relative to the forces of the problem.
   /// @param[in] atol Absolute tolerance, a force.
   /// @param[in] max_it Most linear solves of the step.

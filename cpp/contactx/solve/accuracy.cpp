@@ -24,9 +24,10 @@ constexpr double last_solve_fraction = 0.1, last_solve_fraction_friction = 0.01;
 constexpr double first_solve_fraction_friction = 1e-10;
 } // namespace
 
-void Accuracy::set(double residual, double tolerance, double changing)
+void Accuracy::set(double residual, double tolerance, double changing,
+                   bool has_cycled)
 {
-  const bool settled = changing == 0;
+  const bool settled = has_cycled or changing == 0;
   if (settled and _before > 0)
   {
     const double seen = residual / (_before * _before);

@@ -39,7 +39,10 @@ public:
   /// @param[in] tolerance Bound that it must fall below.
   /// @param[in] changing Part of the nodes in contact whose status or pair has
   /// changed.
-  void set(double residual, double tolerance, double changing);
+  /// @param[in] has_cycled Whether an active set has come back in this step:
+  /// only exact solves tell it from its successor.
+  void set(double residual, double tolerance, double changing,
+           bool has_cycled = false);
 
   /// @brief Residual that the next solve may leave; zero before `set`.
   double target() const { return _target; }

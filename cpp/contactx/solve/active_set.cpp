@@ -110,6 +110,7 @@ void ActiveSet::begin_step()
   _halo->shrink();
   for (const auto& c : _contacts)
     c->begin_step();
+  _guard.begin_step();
 }
 
 Changes ActiveSet::update(const Forces& forces, bool is_first)
@@ -270,6 +271,16 @@ void ActiveSet::reset_flips()
 {
   for (const auto& c : _contacts)
     c->master()->reset_flips();
+}
+
+void ActiveSet::note(double residual)
+{
+  std::vector<std::span<const std::int8_t>> status;
+  for (const auto& c : _contacts)
+    status.push_back(c->nodes()->status);
+  if (_guard.note(fingerprint(_halo->ranks(), status), residual))
+    for (const auto& c : _contacts)
+      c->law()->allow_larger_friction();
 }
 
 bool ActiveSet::hide_penetration()

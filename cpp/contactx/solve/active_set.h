@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../contact/contact.h"
+#include "cycle_guard.h"
 #include "free_bodies.h"
 #include "frozen_pairs.h"
 #include "shared_nodes.h"
@@ -72,6 +73,13 @@ public:
   /// pressure turns with a body.
   bool is_linear() const;
 
+  /// @brief True if only `CycleGuard::step_fraction` of the last step is to be
+  /// taken, because the active set cycles. Asked once a step.
+  bool shortens() { return _guard.shortens(); }
+
+  /// @brief Remember the residual of an iterate.
+  void note(double residual);
+
   /// @brief Decide if an iterate with a small residual is a solution.
   ///
   /// With frozen kinematics the residual is not the true one. The active set
@@ -88,6 +96,9 @@ public:
   /// update pairs and status again if not.
   /// @param[in] forces Forces at the iterate, which free bodies ask for.
   End may_end(const Forces& forces);
+
+  /// @brief Number of times that a status has come back in this step.
+  int cycles() const { return _guard.cycles(); }
 
   /// @brief Number of nodes that close several contacts, on all ranks.
   std::int64_t num_corners() const;
@@ -114,6 +125,7 @@ private:
   std::shared_ptr<FreeBodies> _bodies;
   SharedNodes _junctions;
   bool _has_junctions;
+  CycleGuard _guard;
   FrozenPairs _frozen;
   Changes _changes;
   bool _is_frozen = false;

@@ -44,8 +44,6 @@ constexpr double few_fraction = 0.02, few_nodes = 4;
 /// Iterates that a path takes, about. An active set is left for it where it has
 /// more to go
 constexpr int path_cost = 12;
-/// Relative difference of residuals up to which two iterates are the same
-constexpr double equal_residual_rel_tol = 1e-3;
 /// Closed nodes, over these, that an active set tells apart as soon
 constexpr int nodes_per_iterate = 3;
 /// Residual over the forces, and gaps that are not the slacks, over their
@@ -109,8 +107,6 @@ void InteriorPoint::begin_step(bool is_barred)
   _most_closed = 0;
   _count = _iterations = _trial = _poor = 0;
   _passed = {};
-  _residuals.clear();
-  _has_cycled = false;
   _is_barred = is_barred;
   _gap_scale = _pressure_scale = _last_way = 0;
   _shortest_way = std::numeric_limits<double>::max();
@@ -123,10 +119,7 @@ void InteriorPoint::drop()
 {
   _is_on = _is_trial = _is_predictor = false;
   for (const auto& c : _system->contacts())
-  {
     c->nodes()->interior.reset();
-    c->nodes()->is_shown = false;
-  }
 }
 
 /// Means of pressures, of slacks and of their products over the area.
@@ -240,18 +233,9 @@ double InteriorPoint::reach() const
 }
 
 bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
-                           double way, double residual)
+                           double way)
 {
   ++_count;
-  _has_cycled
-      = _has_cycled
-        or std::ranges::any_of(_residuals,
-                               [residual](double before)
-                               {
-                                 return std::abs(residual - before)
-                                        < equal_residual_rel_tol * before;
-                               });
-  _residuals.push_back(residual);
   _most_closed = std::max(_most_closed, closed);
   const auto now = static_cast<double>(changes.contact);
   // Nodes of the first iterate, but of three before at most
@@ -264,7 +248,7 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
   _shortest_way = std::min(_shortest_way, way);
   if (apart == 0)
     return false;
-  if (_count > path_cost or has_run_away() or _has_cycled)
+  if (_count > path_cost or has_run_away())
     return changes.status > 0;
   if (_most_closed <= nodes_per_iterate * path_cost)
     return false;
@@ -734,7 +718,6 @@ void InteriorPoint::give_up()
   {
     law::NodeState& nodes = *_system->contacts()[k]->nodes();
     nodes.interior.reset();
-    nodes.is_shown = false;
     std::ranges::copy(_status[k], nodes.status.begin());
   }
 }
@@ -752,7 +735,6 @@ void InteriorPoint::leave()
   {
     law::NodeState& nodes = *_system->contacts()[k]->nodes();
     _saved.push_back(nodes.interior);
-    nodes.is_shown = true;
     if (not nodes.interior)
       continue;
     nodes.interior.reset();

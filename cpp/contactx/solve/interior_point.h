@@ -58,10 +58,7 @@ public:
   /// @param[in] closed Number of closed nodes.
   /// @param[in] way Largest component of what any node has moved by in this
   /// step.
-  /// @param[in] residual Residual of the iterate before: one that comes back is
-  /// that of an active set that comes back.
-  bool begins(const Changes& changes, std::int64_t closed, double way,
-              double residual);
+  bool begins(const Changes& changes, std::int64_t closed, double way);
 
   /// @brief Go to the path, with the multipliers of the step's start.
   void start();
@@ -147,9 +144,6 @@ private:
   int _count = 0, _iterations = 0, _trial = 0;
   // Nodes that opened or closed in the last iterates
   std::array<std::int64_t, 3> _passed{};
-  // Residuals of the iterates, and whether one has come back
-  std::vector<double> _residuals;
-  bool _has_cycled = false;
   bool _has_stepped = false;
   // Of the iterate before
   double _residual = 0, _before_product = 0;

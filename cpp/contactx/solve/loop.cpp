@@ -55,6 +55,7 @@ bool Loop::begin_step(bool damped)
   _length.begin_step(damped, _convergence.scales().length);
   const std::span<const double> u = _system->bulk()->displacements();
   _start.assign(u.begin(), u.end());
+  _last.reset();
   _ahead.clear();
   _balance.begin_step();
   _has_stepped = false;
@@ -206,6 +207,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     if (not _has_stepped)
       look_ahead();
     _has_stepped = true;
+    take_back();
     take_off_drift();
     update_active_set(false);
     const std::int64_t changes = _active_set.changes().status,
@@ -216,8 +218,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
       return judge_path(rtol, atol, b);
     }
     if (not _path.is_trial()
-        and _path.begins(_active_set.changes(), closed, max_increment(),
-                         _iterate.residual))
+        and _path.begins(_active_set.changes(), closed, max_increment()))
     {
       _path.start();
       return judge_path(rtol, atol, b);
@@ -234,7 +235,10 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
     ++_version;
     is_small = compare(rtol, atol, b);
   }
+  _active_set.note(_iterate.residual);
   _length.note(_iterate.changes.status > 0 or _iterate.changes.pairs > 0);
+  _last.emplace(_system->size());
+  _system->unknowns(*_last);
   const bool is_unbalanced
       = _balance.note(_bodies->is_unbalanced(), _iterate.changes.status);
   if (not std::isfinite(_iterate.residual))
@@ -361,6 +365,19 @@ void Loop::look_ahead()
     return;
   _system->take(_ahead);
   _active_set.foresee();
+  _system->take(x);
+}
+
+/// Takes back a part of the last step, if the active set cycles.
+void Loop::take_back()
+{
+  if (not _last or not _active_set.shortens())
+    return;
+  constexpr double part = CycleGuard::step_fraction;
+  std::vector<double> x(_system->size());
+  _system->unknowns(x);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = part * x[i] + (1 - part) * (*_last)[i];
   _system->take(x);
 }
 

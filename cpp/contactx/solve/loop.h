@@ -106,8 +106,8 @@ public:
   /// @brief Update pairs and the active set at an accepted iterate, and judge
   /// the residual that they give.
   ///
-  /// The iterate itself may change: free bodies that have drifted are taken
-  /// back.
+  /// The iterate itself may change: where the active set cycles a part of the
+  /// last step is taken back, and free bodies that have drifted are taken back.
   /// @param[in] is_start Whether no step was taken since `settle_first`.
   /// @param[in] rtol Tolerance relative to the forces.
   /// @param[in] atol Absolute tolerance.
@@ -198,6 +198,7 @@ private:
   void look_ahead();
   bool find_homogeneous();
   double residual_at(std::vector<double>& x);
+  void take_back();
   void take_off_drift();
   Verdict judge_path(double rtol, double atol, std::span<double> b);
   bool compare(double rtol, double atol, std::span<double> b);
@@ -221,5 +222,7 @@ private:
   std::vector<double> _start;
   // Where the first Newton step would lead in full
   std::vector<double> _ahead;
+  // The iterate before
+  std::optional<std::vector<double>> _last;
 };
 } // namespace contactx::solve

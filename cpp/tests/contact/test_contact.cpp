@@ -552,15 +552,17 @@ TYPED_TEST(Contacts, FactorIsTheStiffnessOfSlaveAndMasterInARow)
   }
 }
 
-TEST(Contact, ReversalsAreThoseOfAStep)
+TEST(Contact, TurnsAndClosingsAreThoseOfAStep)
 {
   ContactScene scene(2);
   const std::int32_t n = scene.sheets.num_slaves;
   const auto contact = scene.contact<NodeToSurface>(coulomb(n, 0.5));
   law::NodeState& nodes = *contact->nodes();
   std::ranges::fill(nodes.slip_reversals, 1);
+  std::ranges::fill(nodes.slip_closings, 3);
   contact->begin_step();
   EXPECT_EQ(nodes.slip_reversals, std::vector<std::int32_t>(n, 0));
+  EXPECT_EQ(nodes.slip_closings, std::vector<std::int32_t>(n, 0));
 }
 
 TEST(Contact, TractionsTurnWithTheMaster)

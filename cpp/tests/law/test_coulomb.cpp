@@ -33,6 +33,7 @@ struct CoulombNode
   Vector<D> traction, normal, slip;
   double gap, c, friction;
   double area = 1;
+  double reach = 10; ///< of trial friction, over the bound
   Vector<D> mobile = ones();
 
   static Vector<D> ones()
@@ -50,7 +51,7 @@ struct CoulombNode
   std::int8_t status(std::int8_t before = law::open) const
   {
     std::array<std::int8_t, 1> status{before};
-    law::frictional_status(state(), status);
+    law::frictional_status(state(), reach, status);
     return status[0];
   }
 
@@ -414,9 +415,15 @@ TYPED_TEST(CoulombStatus, SticksBeforeSlipTurnsBack)
 TYPED_TEST(CoulombStatus, SlipsOnWhereFrictionCannotHaveThrownIt)
 {
   constexpr int D = TypeParam::value;
-  // mu p_hat = 1; |t_hat| = 9.9 and 10.1, against t
-  EXPECT_EQ((upright<D>(2, 1, 0, 10.9 / 8, 0.5).status()), stick);
-  EXPECT_EQ((upright<D>(2, 1, 0, 11.1 / 8, 0.5).status()), slip);
+  // mu p_hat = 1; |t_hat| = 7 and far more
+  auto node = upright<D>(2, 1, 0, 1, 0.5);
+  EXPECT_EQ(node.status(), stick);
+  node.reach = 6.9;
+  EXPECT_EQ(node.status(), slip);
+  auto far = upright<D>(2, 1, 0, 1e6, 0.5);
+  EXPECT_EQ(far.status(), slip);
+  far.reach = 1e9;
+  EXPECT_EQ(far.status(), stick);
 }
 
 TYPED_TEST(CoulombStatus, SlipsAnyWayWithoutFriction)
@@ -449,8 +456,8 @@ TYPED_TEST(CoulombStatus, CountsTheNodesThatChange)
   }
   const FrictionalState state{D, traction, gap, normal, slips, c, friction};
   std::array<std::int8_t, 3> status{stick, stick, stick};
-  EXPECT_EQ(frictional_status(state, status), 2);
+  EXPECT_EQ(frictional_status(state, 10, status), 2);
   EXPECT_EQ(status, (std::array<std::int8_t, 3>{open, stick, slip}));
-  EXPECT_EQ(frictional_status(state, status), 0);
+  EXPECT_EQ(frictional_status(state, 10, status), 0);
 }
 } // namespace

@@ -183,6 +183,29 @@ TEST(CoulombLaw, TheEdgeIsAsWideAsTheLargestPressureSays)
   EXPECT_EQ(a.nodes.status[0], stick);
 }
 
+TEST(CoulombLaw, EveryFourthClosingWithSlipSticks)
+{
+  FrictionState a(2);
+  a.law.set_friction(std::vector{0.5, 0.0});
+  for (int k = 0; k < 8; ++k)
+  {
+    for (std::size_t i : {0, 1})
+      a.set(i, open, 2, 4, 0);
+    EXPECT_EQ(a.update(), 2);
+    EXPECT_EQ(a.nodes.status[0], k % 4 == 3 ? stick : slip) << k;
+    EXPECT_EQ(a.nodes.slip_closings[0], k + 1);
+    // Nothing sticks without friction
+    EXPECT_EQ(a.nodes.status[1], slip);
+    EXPECT_EQ(a.nodes.slip_closings[1], 0);
+  }
+  // One that is closed already does not count
+  a.set(0, slip, 2, 4, 0);
+  a.nodes.slip_closings[0] = 3;
+  a.update();
+  EXPECT_EQ(a.nodes.status[0], slip);
+  EXPECT_EQ(a.nodes.slip_closings[0], 3);
+}
+
 TEST(CoulombLaw, SlipThatTurnsBackSticksFirst)
 {
   FrictionState a(1);
@@ -213,15 +236,6 @@ TEST(CoulombLaw, SlipThatTurnsBackSticksFirst)
   EXPECT_EQ(a.nodes.slip_reversals[0], 1);
 }
 
-TEST(CoulombLaw, SlipThatAnInteriorPointHasShownIsLeft)
-{
-  FrictionState a(1);
-  a.nodes.is_shown = true;
-  a.set(0, slip, 2, 0.5, 0.5);
-  EXPECT_EQ(a.update(), 0);
-  EXPECT_EQ(a.nodes.status[0], slip);
-}
-
 TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
 {
   // mu p = 1, and c = 8: trial friction is 1.1 or 0.9
@@ -233,6 +247,24 @@ TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
     a.update();
     EXPECT_EQ(a.nodes.status[0], length > 1 ? slip : stick);
   }
+}
+
+TEST(CoulombLaw, ReachesFartherWhereIteratesGoRound)
+{
+  FrictionState a(1);
+  // |t_hat| = 39.5 mu p
+  const auto status = [&a]
+  {
+    a.nodes.slip_reversals[0] = 0;
+    a.set(0, slip, 2, 0.5, 5);
+    a.update();
+    return a.nodes.status[0];
+  };
+  EXPECT_EQ(status(), slip);
+  a.law.allow_larger_friction();
+  EXPECT_EQ(status(), stick);
+  a.law.begin_step();
+  EXPECT_EQ(status(), slip);
 }
 
 TEST(TiedLaw, TiesWhatHasAPair)

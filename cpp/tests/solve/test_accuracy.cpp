@@ -18,9 +18,10 @@ namespace
 constexpr double tolerance = 1e-12;
 
 /// What the next solve may leave.
-double target(Accuracy& accuracy, double residual, double changing)
+double target(Accuracy& accuracy, double residual, double changing,
+              bool has_cycled = false)
 {
-  accuracy.set(residual, tolerance, changing);
+  accuracy.set(residual, tolerance, changing, has_cycled);
   return accuracy.target();
 }
 
@@ -94,6 +95,13 @@ TEST(Accuracy, ResidualsOfActiveSetsThatChangeSayNothingOfTheNext)
   Accuracy accuracy(false);
   target(accuracy, 1e-2, 0.5);
   EXPECT_NEAR(target(accuracy, 1e-3, 0), 1e-13, 1e-26);
+}
+
+TEST(Accuracy, IsThatOfASettledActiveSetOnceOneHasComeBack)
+{
+  Accuracy accuracy(false);
+  EXPECT_NEAR(target(accuracy, 1e-2, 0.5, true), 1e-13, 1e-26);
+  EXPECT_NEAR(target(accuracy, 1e-3, 0.5, true), 3e-6, 1e-18);
 }
 
 TEST(Accuracy, KeepsWhatItHasSeenForTheNextStep)

@@ -334,6 +334,41 @@ TEST(Loop, AnIterateWithoutItsDirichletValuesIsNoSolution)
   }
 }
 
+TEST(Loop, HalfAStepIsTakenWhereIteratesGoRound)
+{
+  Newton found(3);
+  found.add<NodeToSurface>(found.law(0));
+  found.press(0.09, 0.01);
+  ASSERT_EQ(found.solve(), Verdict::solution);
+  // Pressed harder by a little: no node opens or closes
+  for (double& end : found.bulk->ends)
+    end *= 1.001;
+  found.begin();
+  EXPECT_EQ(found.judge(true), Verdict::goes_on);
+  const std::vector<double> x = found.unknowns(),
+                            dx = tests::solution(found.matrix(), found.b);
+  found.take(x, dx, 0);
+  EXPECT_EQ(found.loop->active_set().cycles(), 0);
+  found.judge();
+  EXPECT_EQ(found.unknowns(), x);
+  // The same residual again
+  EXPECT_EQ(found.loop->active_set().cycles(), 1);
+  double left = 1;
+  for (int step = 0; step < 3; ++step)
+  {
+    found.take(x, dx, 1);
+    found.judge();
+    // Two steps go half the way from the iterate before
+    left = step < 2 ? left / 2 : 0;
+    const std::vector<double> now = found.unknowns();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(now[i], x[i] - (1 - left) * dx[i], 1e-15);
+  }
+  EXPECT_EQ(found.loop->iterate().changes.status, 0);
+  found.begin();
+  EXPECT_EQ(found.loop->active_set().cycles(), 0);
+}
+
 TEST(Loop, AResidualThatIsNotFiniteEndsIt)
 {
   for (const double bad : {std::nan(""), infinity})

@@ -185,8 +185,8 @@ def test_blocks_pushed_aside(cell, law, gap):
     assert not condensed[2].uncondensed
 
 
-def test_a_status_that_comes_back():
-    """The direct solver's answer is found nevertheless."""
+def test_a_status_that_comes_back_is_reported():
+    """And the direct solver's answer is found nevertheless."""
 
     def create(solver):
         scene = Blocks(CellType.tetrahedron, gap=0.02, n_upper=4, n_lower=3)
@@ -196,6 +196,9 @@ def test_a_status_that_comes_back():
 
     direct, condensed = both(create)
     assert_same(direct, condensed)
+    for *_, report in (direct, condensed):
+        assert report.cycles == 1
+        assert "the status came back 1 times" in str(report)
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])
