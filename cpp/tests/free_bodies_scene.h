@@ -261,8 +261,6 @@ public:
 
   void close(std::span<const std::int32_t> which) override
   {
-    if (not which.empty() and on_close)
-      on_close();
     for (const std::int32_t i : which)
       kind[i] = friction > 0 ? law::stick : law::slip;
   }
@@ -307,7 +305,6 @@ public:
   solve::Pairing found;
   std::vector<std::int8_t> kind;
   std::vector<double> gap, slip, traction;
-  std::function<void()> on_close; ///< called where nodes are closed
 };
 
 /// @brief A truss with its bodies, on one rank or several.

@@ -237,12 +237,11 @@ class LoadSteps:
                     self._problem.set_attempt(plan.attempt())
                     self._problem.solve()
                     interrupts.wait()
-                    report = self._problem.report
+                    report, now = self._problem.report, time.perf_counter()
+                    self._write((index, cuts + 1), plan.next, now - last, report)
                     report.discarded += discarded
                     step = Step(index, plan.next, report)
-                    now = time.perf_counter()
                     row = make_row(step, now - begin)
-                    self._write((index, cuts + 1), plan.next, now - last, report, discarded)
                     plan.accept(report.iterations)
                     self._rows, self._plan, self._unseen = [*self._rows, row], plan, step
                 except ConvergenceError as error:
@@ -274,22 +273,14 @@ class LoadSteps:
                     raise
                 return step
 
-    def _write(
-        self,
-        number: tuple[int, int],
-        end: float,
-        seconds: float,
-        report: Report,
-        of_others: int = 0,
-    ) -> None:
+    def _write(self, number: tuple[int, int], end: float, seconds: float, report: Report) -> None:
         """Write an attempt to the log.
 
         Args:
             number: Of the step, and of the attempt at it.
             end: Where the attempt ends.
             seconds: Wall time.
-            report: Its report.
-            of_others: What is counted in ``report.discarded`` of other attempts.
+            report: Its report, which counts no other attempt at the step yet.
         """
         with agreed(self._comm):
             if self._comm.rank != 0:
@@ -301,7 +292,7 @@ class LoadSteps:
                 attempt=attempt,
                 start=self.t,
                 end=end,
-                solves=report.iterations + report.discarded - of_others,
+                solves=report.iterations + report.discarded,
                 closed=last.closed if last else 0,
                 slipping=report.slipping,
                 residual=last.residual if last else np.nan,

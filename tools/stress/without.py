@@ -3,8 +3,8 @@
 """What the stress map loses without a rule of the method, rule by rule.
 
     python tools/stress/without.py --every 20
-    python tools/stress/without.py --every 20 --only "slip closings" "slip reversals"
-    python tools/stress/without.py --every 1 --together --only "slip closings" "slip reversals"
+    python tools/stress/without.py --every 20 --only "slip closings" "drift"
+    python tools/stress/without.py --every 1 --together --only "slip closings" "drift"
 
 ``rules.json`` has for each rule the file and the text that switch it off. A copy of the package is
 built once with all of these behind an environment variable, in build/without; the map is run with

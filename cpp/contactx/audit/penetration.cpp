@@ -12,8 +12,6 @@ using namespace contactx::audit;
 
 namespace
 {
-/// Penetration, over the size of a facet, that is refused in any case
-constexpr double harmful_depth = 0.15;
 /// Allowed penetration over the depth of the chord of a curved facet: both
 /// sides are curved
 constexpr double chord_depth_factor = 2;

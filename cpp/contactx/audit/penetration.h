@@ -12,6 +12,11 @@ namespace contactx::audit
 /// Penetration, over the size of a facet, up to which a node is in contact
 inline constexpr double contact_depth_max = 1. / 8;
 
+/// Penetration, over the size of a facet, that is refused in any case, and
+/// distance across which facets may press that are integrated: tips on arms,
+/// which are right, were up to 0.1 apart, one that had slid off its facet 0.2
+inline constexpr double harmful_depth = 0.15;
+
 /// Penetration, over the size of a facet, that does not matter
 inline constexpr double negligible_depth = 1. / 256;
 

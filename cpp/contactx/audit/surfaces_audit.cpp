@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 using namespace contactx;
@@ -26,10 +25,6 @@ namespace
 constexpr double edge_overlap_min = 1. / 16;
 // Largest depth of a node without a pair behind a facet, over the facet's size
 constexpr double unpaired_depth_max = 1. / 32;
-// Distance across which facets may press that are integrated, over their size:
-// what the master may be deep between nodes. Tips on arms, which are right,
-// were up to 0.1 apart; one that had slid off its facet, 0.2
-constexpr double distance_max = 0.15;
 // Values of a slave facet for the master's nodes, see see_slave
 constexpr int num_probe_values = 8;
 
@@ -410,7 +405,7 @@ double SurfacesAudit::look_across(std::span<const double> x, double facet_size)
     }
   if (not mesh::anywhere(ranks, not nodes.empty()))
     return 0;
-  allowed = distance_max * facet_size + mesh::largest(ranks, allowed);
+  allowed = harmful_depth * facet_size + mesh::largest(ranks, allowed);
   const auto least
       = [&](search::SurfaceProbe& probe, std::span<const std::int32_t> points)
   {
@@ -418,7 +413,7 @@ double SurfacesAudit::look_across(std::span<const double> x, double facet_size)
         = probe.query(x, rows_of(x, points, g),
                       std::vector<double>(points.size() * g, 0), 2 * allowed);
     return mesh::least(ranks, seen.distance.empty()
-                                  ? std::numeric_limits<double>::infinity()
+                                  ? infinity
                                   : std::ranges::min(seen.distance));
   };
   double distance = least(_master->outside()->probe(), nodes);

@@ -104,9 +104,8 @@ void contactx::problem::add(AuditReport& report, const std::string& name,
         + " or more, though slave facets have the size "
         + number_text(found.facet_size, 3)
         + " and nothing touches: the slave surface is too coarse to see an "
-          "edge "
-          "of the master. Swap slave and master, or refine the slave surface "
-          "(manual: errors/slave-too-coarse)");
+          "edge of the master. Swap slave and master, or refine the slave "
+          "surface (manual: errors/slave-too-coarse)");
   const bool is_small = contact.sliding() == contact::Sliding::small;
   add_inside(report, name, "master, and have no pair with it", found, size,
              is_small ? unpaired : far);

@@ -280,6 +280,8 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
   plan = std::move(attempted);
 }
 
+/// What came of the last attempt, without times and t.
+/// @param[in] failure Why it failed; empty where it was accepted.
 AttemptRecord Problem::record(std::string failure) const
 {
   AttemptRecord record;
@@ -707,15 +709,10 @@ void Problem::summarise()
   _report.corners = active_set.num_corners();
   _report.free_modes = bodies.free_modes();
   _report.closed_for_balance = bodies.closed_for_balance();
-  _report.skipped_searches = _report.slipping = 0;
+  _report.slipping = active_set.num_slipping();
+  _report.skipped_searches = 0;
   for (const auto& contact : _system->contacts())
-  {
     _report.skipped_searches += contact->skipped_searches();
-    if (contact->history())
-      _report.slipping
-          += std::ranges::count(contact->nodes()->status, law::slip);
-  }
-  _report.slipping = mesh::total(_halo->ranks(), _report.slipping);
 }
 
 /// Writes the totals of an accepted step, and what it is warned of.

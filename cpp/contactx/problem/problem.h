@@ -239,10 +239,6 @@ public:
                LinearSolver& solver, const Tolerances& tolerances = {},
                const StepLog& log = {});
 
-  /// @brief What came of the last attempt, without times and t.
-  /// @param[in] failure Why it failed; empty where it was accepted.
-  AttemptRecord record(std::string failure) const;
-
   /// @brief Attempt a step that was prepared, and once more with damped steps
   /// where full ones have failed and these may do better.
   /// @param[in] attempt Starts the step with `start(damped)` and iterates.
@@ -346,6 +342,7 @@ private:
   /// steps solve what they solve exactly.
   bool damping_may_help() const;
   std::vector<std::shared_ptr<results::Results>> results() const;
+  AttemptRecord record(std::string failure) const;
   bool iterate(LinearSolver& solver, const Tolerances& tolerances);
   void read_values();
   void check_finite();

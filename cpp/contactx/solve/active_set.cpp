@@ -246,6 +246,15 @@ std::int64_t ActiveSet::num_closed() const
   return mesh::total(_halo->ranks(), closed);
 }
 
+std::int64_t ActiveSet::num_slipping() const
+{
+  std::int64_t slipping = 0;
+  for (const auto& c : _contacts)
+    if (c->history())
+      slipping += std::ranges::count(c->nodes()->status, law::slip);
+  return mesh::total(_halo->ranks(), slipping);
+}
+
 std::int64_t ActiveSet::num_corners() const
 {
   return mesh::total(_halo->ranks(), std::int64_t(_junctions.corners()));

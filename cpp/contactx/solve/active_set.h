@@ -66,6 +66,9 @@ public:
   /// @brief Number of nodes in contact, on all ranks.
   std::int64_t num_closed() const;
 
+  /// @brief Number of slave nodes that slip against friction, on all ranks.
+  std::int64_t num_slipping() const;
+
   /// @brief True if the kinematics are frozen.
   bool is_frozen() const { return _is_frozen; }
 
