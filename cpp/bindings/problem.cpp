@@ -108,6 +108,7 @@ Attributes:
       .def_readonly("cycles", &Report::cycles)
       .def_readonly("corners", &Report::corners)
       .def_readonly("free_modes", &Report::free_modes)
+      .def_readonly("held_force", &Report::held_force)
       .def_readonly("closed_for_balance", &Report::closed_for_balance)
       .def_readonly("skipped_searches", &Report::skipped_searches);
 

@@ -233,6 +233,10 @@ public:
   solve::Pairing pairing() const override { return found; }
   std::vector<std::int8_t> status() const override { return kind; }
   std::vector<double> closable_gap() const override { return gap; }
+  std::vector<double> facet_size() const override
+  {
+    return std::vector<double>(kind.size(), size);
+  }
 
   solve::FrictionState friction_state() override
   {
@@ -300,6 +304,7 @@ public:
   }
 
   int gdim = 2;
+  double size = 1; ///< of facets
   bool small = false;
   double friction = 0;
   solve::Pairing found;

@@ -34,6 +34,7 @@ _OF_CORE = (
     "cycles",
     "corners",
     "free_modes",
+    "held_force",
     "closed_for_balance",
 )
 
@@ -154,6 +155,8 @@ class Report:
         shortened: Newton steps that were damped.
         cycles: How often the active set cycled and steps were shortened.
         free_modes: Rigid modes of free bodies, at the end; the forces along them balance.
+        held_force: Force that holds bodies along such modes where nothing but the corners between
+            facets does, over those of all contacts.
         closed_for_balance: Nodes that were closed since a free body would touch there first.
         slipping: Slave nodes that slip against friction.
         slip: Sum over the slave nodes of their slip in this step, a length.
@@ -192,6 +195,7 @@ class Report:
     shortened: int = 0
     cycles: int = 0
     free_modes: int = 0
+    held_force: float = 0.0
     closed_for_balance: int = 0
     slipping: int = 0
     slip: float = 0.0
@@ -312,6 +316,11 @@ class Report:
             lines.append(
                 f"free bodies: {self.closed_for_balance} nodes closed at first to balance them, "
                 f"{self.free_modes} rigid modes left free"
+                + (
+                    f", held by {self.held_force:.1e} of the contact forces"
+                    if self.held_force
+                    else ""
+                )
             )
         if self.dissipation > 0:
             lines.append(

@@ -67,3 +67,15 @@ std::string contactx::problem::no_convergence(std::string_view count,
   text.append(count).append(" iterations: ").append(advice).append(limit);
   return text + " (manual: errors/no-convergence)";
 }
+
+std::string contactx::problem::held_bodies(std::int64_t motions, double force)
+{
+  return "nothing but the corners between facets resists "
+         + std::to_string(motions)
+         + " motions of bodies without supports, and contact without friction "
+           "does not balance there: the bodies are held where they are, by "
+         + number_text(100 * force, 2)
+         + " % of the contact forces. Where they lie matters little if that is "
+           "little; else give friction, support them, or refine the meshes "
+           "(manual: errors/held-motions)";
+}

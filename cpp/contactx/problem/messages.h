@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../solve/loop.h"
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -24,4 +25,11 @@ std::string failure_of(solve::Verdict verdict, double moved);
 /// scaled.
 std::string no_convergence(std::string_view count, std::string_view limit,
                            bool is_homogeneous);
+
+/// @brief Say that bodies are held along motions that nothing but the corners
+/// between facets resists.
+/// @param[in] motions Number of these motions, and of those that nothing
+/// resists.
+/// @param[in] force Force that holds them, over those of all contacts.
+std::string held_bodies(std::int64_t motions, double force);
 } // namespace contactx::problem

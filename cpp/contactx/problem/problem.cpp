@@ -708,6 +708,7 @@ void Problem::summarise()
   _report.cycles = active_set.cycles();
   _report.corners = active_set.num_corners();
   _report.free_modes = bodies.free_modes();
+  _report.held_force = bodies.held_force();
   _report.closed_for_balance = bodies.closed_for_balance();
   _report.slipping = active_set.num_slipping();
   _report.skipped_searches = 0;
@@ -752,6 +753,9 @@ void Problem::complete()
   _report.frozen_pairs = counts[3];
   _report.slip = sums[0];
   _report.dissipation = sums[1];
+  if (_report.held_force > 0)
+    _report.warnings.push_back(
+        held_bodies(_report.free_modes, _report.held_force));
   for (std::size_t k = 0; k < _parts.size(); ++k)
     if (std::string text = warning_of(k); not text.empty())
       _report.warnings.push_back(std::move(text));

@@ -103,6 +103,8 @@ struct Report
   int cycles = 0;                ///< how often a status has come back
   std::int64_t corners = 0;      ///< nodes that close several contacts
   std::int64_t free_modes = 0;   ///< rigid modes that are left free
+  /// Force that holds bodies along such modes, over those of all contacts
+  double held_force = 0;
   /// Nodes that were closed to balance a free body
   std::int64_t closed_for_balance = 0;
   std::int64_t skipped_searches = 0; ///< searches that were not needed

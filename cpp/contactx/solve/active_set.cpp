@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "active_set.h"
+#include "../geometry/sizes.h"
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -57,6 +58,21 @@ public:
     for (std::size_t i = 0; i < gap.size(); ++i)
       gap[i] = nodes().closable_gap(i);
     return gap;
+  }
+  std::vector<double> facet_size() const override
+  {
+    const contact::SlaveNodes& slaves = _contact->slaves();
+    const int g = nodes().gdim();
+    const std::vector<double> x
+        = slaves.here(_contact->halo().reference(), g, "reference");
+    const geometry::FacetList facets = slaves.local();
+    const std::vector<double> size = geometry::facet_sizes(facets, x, g);
+    std::vector<double> largest(slaves.owned().size());
+    for (std::size_t f = 0; f < size.size(); ++f)
+      for (std::int32_t k = facets.offsets[f]; k < facets.offsets[f + 1]; ++k)
+        if (const std::size_t i = facets.nodes[k]; i < largest.size())
+          largest[i] = std::max(largest[i], size[f]);
+    return largest;
   }
   FrictionState friction_state() override
   {

@@ -6,6 +6,7 @@
 #include "../math/matrix.h"
 #include "../math/scales.h"
 #include "../math/vec.h"
+#include "held_motions.h"
 #include "rigid_modes.h"
 #include "springs.h"
 #include <Eigen/Cholesky>
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 using namespace contactx;
 using namespace contactx::solve;
@@ -28,6 +30,17 @@ namespace
 constexpr double idle_force_max = 1e-3;
 // Stiffness of springs over the bulk's
 constexpr double spring_ratio = 1e-6;
+// Resistance of closed nodes to a motion, over the largest, that is rounding
+constexpr double no_resistance = 1e-12;
+// Resistance of closed nodes to a motion, over the largest, below which it is
+// that of the corners between facets: squares of the sines of their angles
+constexpr double corner_resistance = 1e-3;
+// Way of a node in contact along its facets, over their size, from which on
+// others of its body pass corners
+constexpr double run_fraction = 0.1;
+// Force along motions that little resists, over the contact forces, that
+// supports may take
+constexpr double held_force_max = 1e-2;
 // Force along free modes, over that of the loads, that contact forces must
 // leave where they cannot balance it, and work of a force over the largest that
 // it may have, below which it has none
@@ -51,6 +64,15 @@ double largest_size(std::span<const double> increment)
   for (const double value : increment)
     most = std::max(most, std::abs(value));
   return most;
+}
+
+/// First column of each body among those of all bodies, and their number.
+std::vector<Eigen::Index> first_columns(const std::vector<MatrixXd>& bases)
+{
+  std::vector<Eigen::Index> first{0};
+  for (const MatrixXd& basis : bases)
+    first.push_back(first.back() + basis.cols());
+  return first;
 }
 
 /// Combination of motions with so much work, by their symmetric matrix.
@@ -103,12 +125,54 @@ struct FreeBodies::Rows
           row[(e - offsets[i]) * m + p]
               += direction[c] * blocks[(e * gdim + c) * m + p];
   }
+
+  /// Row in a direction by the columns of the bases of all bodies, where it is
+  /// not zero.
+  /// @param[in] first First column of each body.
+  void by_columns(const Vector<3>& direction, std::size_t i,
+                  const std::vector<MatrixXd>& bases,
+                  const std::vector<Eigen::Index>& first,
+                  std::vector<Eigen::Index>& where,
+                  std::vector<double>& row) const
+  {
+    std::vector<double> of_body;
+    in_direction(direction, i, of_body);
+    where.clear();
+    row.clear();
+    for (std::size_t e = offsets[i]; e < offsets[i + 1]; ++e)
+    {
+      const std::int32_t b = bodies[e];
+      const double* modes = &of_body[(e - offsets[i]) * m];
+      for (Eigen::Index k = 0; k < bases[b].cols(); ++k)
+      {
+        double sum = 0;
+        for (int p = 0; p < m; ++p)
+          sum += modes[p] * bases[b](p, k);
+        where.push_back(first[b] + k);
+        row.push_back(sum);
+      }
+    }
+  }
 };
 
 /// Motions in columns, as coefficients of the modes of all bodies.
 struct FreeBodies::Motions
 {
   MatrixXd N;
+  Eigen::Index num_free = 0; ///< that nothing resists, the first ones
+};
+
+/// Motions in rows (shape=(number of motions, num_owned * gdim)).
+struct FreeBodies::Field
+{
+  MatrixXd values;
+};
+
+struct FreeBodies::Neutral
+{
+  Field field;
+  MatrixXd slips;           ///< of closed nodes, by each motion
+  std::vector<double> size; ///< of the facets around each closed node
 };
 
 /// Motions in rows.
@@ -167,7 +231,10 @@ void FreeBodies::begin_step()
   _is_unbalanced = false;
   _springs.reset();
   _loose.reset();
+  _held.reset();
+  _neutral.reset();
   _begins = true;
+  _is_holding = _has_let_go = false;
 }
 
 std::vector<FreeBodies::Rows> FreeBodies::rows(std::span<const double> x) const
@@ -277,10 +344,11 @@ bool FreeBodies::stabilise(const Forces& forces)
 {
   _springs.reset();
   _loose.reset();
+  _held.reset();
+  _neutral.reset();
   _free_modes = 0;
   if (not _modes or not _modes->any_free())
     return false;
-  const std::span<const double> reference = _bulk->reference();
   const std::span<const double> x = positions();
   const std::size_t n
       = _bodies->map().num_owned() * std::size_t(_modes->gdim());
@@ -299,19 +367,20 @@ bool FreeBodies::stabilise(const Forces& forces)
   const std::vector<double> force = checked(forces.residual());
   const double balanced = balance_rel_tol * forces.scale();
   const std::vector<double> pull = along(x, force, -1);
-  if (_begins)
-  {
-    _loads = along(reference, checked(forces.of_bulk()), -1);
-    _balanced = balanced;
-  }
+  _balanced = balanced;
   const std::vector<Rows> rows = this->rows(x);
   bool closed_any = _begins and close_before_springs(rows, pull);
+  if (_begins)
+    _has_given_way = false;
+  else if (not std::exchange(_has_given_way, true))
+    closed_any = give_way(rows, pull) or closed_any;
   _begins = false;
   Motions motions;
-  const MatrixXd& N = motions.N;
+  MatrixXd N;
   while (true)
   {
     motions = free_basis(rows, false);
+    N = motions.N.leftCols(motions.num_free);
     if (N.cols() == 0)
     {
       _is_unbalanced = false;
@@ -324,7 +393,7 @@ bool FreeBodies::stabilise(const Forces& forces)
       f += N.transpose() * math::column(cone_deficit(rows));
     // A norm that does not depend on which basis of the modes round-off has
     // chosen
-    if (f.norm() <= balanced or loads_balance(motions))
+    if (f.norm() <= balanced)
     {
       _is_unbalanced = false;
       break;
@@ -341,63 +410,160 @@ bool FreeBodies::stabilise(const Forces& forces)
     closed_any = true;
   }
   _free_modes = N.cols();
-  if (_free_modes > 0)
-    add_springs(motions, x, pull, force);
+  note_neutral(motions, rows, x, pull, force, checked(forces.of_bulk()));
+  if (_neutral and _is_holding)
+    hold();
+  else if (_free_modes > 0)
+    add_springs({N, N.cols()}, x, pull, force);
   return closed_any;
+}
+
+FreeBodies::Field FreeBodies::displacements(const Motions& motions,
+                                            std::span<const double> x) const
+{
+  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
+  const std::size_t n = _bodies->map().num_owned();
+  const auto body = _modes->body();
+  const MatrixXd& N = motions.N;
+  MatrixXd field(N.cols(), n * g);
+  std::array<double, 18> modes;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
+    field.middleCols(i * g, g)
+        = N.middleRows(body[i] * m, m).transpose()
+          * Eigen::Map<const MatrixXd>(modes.data(), m, g);
+  }
+  return {std::move(field)};
+}
+
+std::vector<double> FreeBodies::springs_of(const Field& field) const
+{
+  return independent_springs(ranks(), field.values, _bulk->markers(),
+                             _bulk->diagonal(), _original, _modes->gdim());
 }
 
 void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
                              std::span<const double> pull,
                              std::span<const double> forces)
 {
-  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
-  const auto body = _modes->body();
-  const MatrixXd& N = motions.N;
-  MatrixXd shares(N.cols(), forces.size());
-  std::array<double, 18> modes;
-  for (std::size_t i = 0; i < forces.size() / g; ++i)
-  {
-    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
-    shares.middleCols(i * g, g)
-        = N.middleRows(body[i] * m, m).transpose()
-          * Eigen::Map<const MatrixXd>(modes.data(), m, g);
-  }
-  const auto markers = _bulk->markers();
-  std::vector<double> springs
-      = independent_springs(ranks(), shares, markers, _bulk->diagonal(),
-                            _original, static_cast<int>(g));
+  Field field = displacements(motions, x);
+  _springs = springs_of(field);
   const double size
       = std::sqrt(mesh::total(ranks(), math::column(forces).squaredNorm()));
-  const bool idle
-      = (N.transpose() * math::column(pull)).norm() <= idle_force_max * size;
+  const bool idle = (motions.N.transpose() * math::column(pull)).norm()
+                    <= idle_force_max * size;
   // Friction resists motions across the slip
   if (idle and not has_friction())
-  {
-    for (Eigen::Index i = 0; i < shares.cols(); ++i)
-      if (markers[i] != 0)
-        shares.col(i).setZero();
-    const auto u = _bulk->displacements();
-    _loose = std::make_unique<Loose>(
-        Loose{std::move(shares), {u.begin(), u.end()}});
-  }
+    keep_in_place(std::move(field));
   // Weak, so that they do not slow down convergence along modes with a small
   // stiffness, as of friction that turns
-  for (double& spring : springs)
+  for (double& spring : *_springs)
     spring *= spring_ratio;
-  _springs = std::move(springs);
 }
 
-/// Whether the loads of the step balance along free modes, as linear strains
-/// see them.
-///
-/// Stresses of linear strains balance in the reference configuration alone. In
-/// the current one they have a moment, without any load, that grows with the
-/// displacements. Contacts without friction have no force along free modes.
-bool FreeBodies::loads_balance(const Motions& motions) const
+/// Remembers where bodies are, to take off what they drift by.
+void FreeBodies::keep_in_place(Field field)
 {
-  if (not _bulk->is_linear() or has_friction())
+  const auto markers = _bulk->markers();
+  for (Eigen::Index i = 0; i < field.values.cols(); ++i)
+    if (markers[i] != 0)
+      field.values.col(i).setZero();
+  const auto u = _bulk->displacements();
+  _loose = std::make_unique<Loose>(
+      Loose{std::move(field.values), {u.begin(), u.end()}});
+}
+
+/// Finds the motions that nothing but corners between facets resists, if the
+/// forces along them are small.
+void FreeBodies::note_neutral(const Motions& motions,
+                              const std::vector<Rows>& rows,
+                              std::span<const double> x,
+                              std::span<const double> pull,
+                              std::span<const double> forces,
+                              std::span<const double> of_bulk)
+{
+  _neutral.reset();
+  const Eigen::Index k = motions.N.cols();
+  if (has_friction() or k == motions.num_free)
+    return;
+  _pressed = std::sqrt(mesh::total(
+      ranks(), (math::column(forces) - math::column(of_bulk)).squaredNorm()));
+  // Where bodies are held the end of the step decides
+  if (not _is_holding
+      and (motions.N.transpose() * math::column(pull)).norm()
+              > std::max(_balanced, held_force_max * _pressed))
+    return;
+  _neutral = std::make_unique<Neutral>(
+      Neutral{displacements(motions, x), MatrixXd(0, k), {}});
+  std::vector<double> slips;
+  for (const Rows& some : rows)
+  {
+    const std::vector<std::int8_t> status = some.contact->status();
+    const std::vector<double> size = some.contact->facet_size();
+    for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      if (status[some.slaves[i]] == law::open)
+        continue;
+      _neutral->size.push_back(size[some.slaves[i]]);
+      for (Eigen::Index mode = 0; mode < k; ++mode)
+      {
+        const VectorXd motion = motions.N.col(mode);
+        const Vector<3> slip = along_surface(
+            some.normal[i],
+            some.by({motion.data(), std::size_t(motion.size())}, i));
+        slips.insert(slips.end(), slip.begin(), slip.end());
+      }
+    }
+  }
+  // Of each node its movement by each motion, three components
+  _neutral->slips
+      = Eigen::Map<const MatrixXd>(slips.data(), 3, slips.size() / 3);
+}
+
+bool FreeBodies::runs_along(std::span<const double> dx) const
+{
+  if (not _neutral or _is_holding)
     return false;
-  return (motions.N.transpose() * math::column(_loads)).norm() <= _balanced;
+  const MatrixXd& field = _neutral->field.values;
+  const Eigen::Index k = field.rows();
+  MatrixXd sums(k, k + 1);
+  sums << field * field.transpose(),
+      field * Eigen::Map<const VectorXd>(dx.data(), field.cols());
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(sums.data(), sums.size()), Reduction::sum);
+  const VectorXd motion = combined(sums.leftCols(k), sums.col(k));
+  bool is_far = false;
+  for (std::size_t i = 0; i < _neutral->size.size(); ++i)
+    is_far = is_far
+             or (_neutral->slips.middleCols(k * i, k) * motion).norm()
+                    > run_fraction * _neutral->size[i];
+  return mesh::anywhere(ranks(), is_far);
+}
+
+/// Holds bodies where they are, by supports as stiff as the bulk.
+void FreeBodies::hold()
+{
+  _is_holding = true;
+  _free_modes = _neutral->field.values.rows();
+  _springs = springs_of(_neutral->field);
+  keep_in_place(_neutral->field);
+  _held = std::make_shared<HeldMotions>(ranks(), _loose->motions, *_springs);
+}
+
+double FreeBodies::held_force() const
+{
+  return _held and _held->force() > _balanced ? _held->force() / _pressed : 0;
+}
+
+bool FreeBodies::let_go()
+{
+  const double force = held_force();
+  if (force == 0 or (_has_let_go and force <= held_force_max))
+    return false;
+  _has_let_go = true;
+  _is_holding = false;
+  return true;
 }
 
 /// The force of length 1 inside the cone of any node on any rank that works
@@ -575,7 +741,8 @@ bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
   bool closed_any = false;
   while (true)
   {
-    const MatrixXd N = free_basis(rows, true).N;
+    const Motions motions = free_basis(rows, true);
+    const MatrixXd N = motions.N.leftCols(motions.num_free);
     if (N.cols() == 0)
       break;
     const MatrixXd combine = Z.transpose() * N;
@@ -595,7 +762,109 @@ bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
   return closed_any;
 }
 
-/// Orthonormal basis of the motions that no closed node resists.
+/// Closes the nodes that touch where free bodies that nothing pulls yet give
+/// way to what penetrates them, as if they were rigid and each node of theirs a
+/// spring.
+///
+/// Before a body is pressed from both sides nothing but corners between facets
+/// resists its motions along the surface.
+bool FreeBodies::give_way(const std::vector<Rows>& rows,
+                          std::span<const double> pull)
+{
+  struct Spring
+  {
+    std::size_t contact, i;
+    double gap;
+    bool is_tied;
+    std::vector<Eigen::Index> where{};
+    std::vector<double> row{};
+    bool is_pressed = false;
+  };
+  std::vector<Spring> springs;
+  std::vector<MatrixXd> bases = _modes->free();
+  const int m = _modes->modes_per_body();
+  for (std::size_t b = 0; b < bases.size(); ++b)
+    if (math::column(pull.subspan(b * m, m)).norm() > _balanced)
+      bases[b].resize(m, 0);
+  const std::vector<Eigen::Index> first = first_columns(bases);
+  const Eigen::Index count = first.back();
+  if (count == 0)
+    return false;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    const bool is_tied = std::isinf(rows[k].contact->friction_max());
+    const std::vector<double> gap = rows[k].contact->closable_gap();
+    const auto add = [&](const Vector<3>& direction, std::size_t i, double gap)
+    {
+      Spring spring{k, i, gap, is_tied};
+      rows[k].by_columns(direction, i, bases, first, spring.where, spring.row);
+      if (not spring.where.empty())
+        springs.push_back(std::move(spring));
+    };
+    for (std::size_t i = 0; i < rows[k].size(); ++i)
+      if (is_tied)
+        for (int c = 0; c < rows[k].gdim; ++c)
+        {
+          Vector<3> axis{};
+          axis[c] = 1;
+          add(axis, i, 0);
+        }
+      else if (std::isfinite(gap[rows[k].slaves[i]]))
+        add(rows[k].normal[i], i, gap[rows[k].slaves[i]]);
+  }
+  VectorXd motion = VectorXd::Zero(count);
+  bool changes = true;
+  for (int k = 0; changes and k < max_rays; ++k)
+  {
+    changes = false;
+    MatrixXd gram = MatrixXd::Zero(count, count + 1);
+    for (Spring& spring : springs)
+    {
+      double depth = -spring.gap;
+      for (std::size_t p = 0; p < spring.row.size(); ++p)
+        depth -= spring.row[p] * motion[spring.where[p]];
+      const bool is_pressed = spring.is_tied or depth > 0;
+      changes = changes or spring.is_pressed != is_pressed;
+      spring.is_pressed = is_pressed;
+      if (not spring.is_pressed)
+        continue;
+      for (std::size_t p = 0; p < spring.row.size(); ++p)
+      {
+        for (std::size_t q = 0; q < spring.row.size(); ++q)
+          gram(spring.where[p], spring.where[q])
+              += spring.row[p] * spring.row[q];
+        gram(spring.where[p], count) -= spring.row[p] * spring.gap;
+      }
+    }
+    changes = mesh::anywhere(ranks(), changes);
+    if (ranks().size() > 1)
+      ranks().reduce(std::span(gram.data(), gram.size()), Reduction::sum);
+    const double most = std::max(gram.diagonal().maxCoeff(), 1.0);
+    gram.diagonal().array() += corner_resistance * most;
+    motion = gram.leftCols(count).ldlt().solve(gram.col(count));
+  }
+  std::vector<std::vector<std::int32_t>> which(rows.size());
+  for (const Spring& spring : springs)
+  {
+    const Rows& some = rows[spring.contact];
+    const std::int32_t slave = some.slaves[spring.i];
+    if (spring.is_pressed and not spring.is_tied
+        and some.contact->status()[slave] == law::open)
+      which[spring.contact].push_back(slave);
+  }
+  std::int64_t closed = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    rows[k].contact->close(which[k]);
+    closed += std::ssize(which[k]);
+  }
+  closed = mesh::total(ranks(), closed);
+  _closed_for_balance += closed;
+  return closed > 0;
+}
+
+/// Orthonormal basis of the motions that no closed node resists, and behind
+/// them of those that little does.
 /// @param[in] of_weak Whether they are combined of the modes that little
 /// resists, not of those that nothing does.
 FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
@@ -603,35 +872,17 @@ FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
 {
   const std::vector<MatrixXd>& bases
       = of_weak ? _modes->weak() : _modes->free();
-  std::vector<Eigen::Index> first{0};
-  for (const MatrixXd& basis : bases)
-    first.push_back(first.back() + basis.cols());
+  const std::vector<Eigen::Index> first = first_columns(bases);
   const Eigen::Index count = first.back();
   if (count == 0)
     return {};
   MatrixXd gram = MatrixXd::Zero(count, count);
-  // A row of what resists, by the columns where it is not zero
   std::vector<Eigen::Index> where;
-  std::vector<double> of_body, row;
+  std::vector<double> row;
   const auto add
       = [&](const Rows& some, const Vector<3>& direction, std::size_t i)
   {
-    some.in_direction(direction, i, of_body);
-    where.clear();
-    row.clear();
-    for (std::size_t e = some.offsets[i]; e < some.offsets[i + 1]; ++e)
-    {
-      const std::int32_t b = some.bodies[e];
-      const double* modes = &of_body[(e - some.offsets[i]) * some.m];
-      for (Eigen::Index k = 0; k < bases[b].cols(); ++k)
-      {
-        double sum = 0;
-        for (int p = 0; p < some.m; ++p)
-          sum += modes[p] * bases[b](p, k);
-        where.push_back(first[b] + k);
-        row.push_back(sum);
-      }
-    }
+    some.by_columns(direction, i, bases, first, where, row);
     for (std::size_t p = 0; p < row.size(); ++p)
       for (std::size_t q = 0; q < row.size(); ++q)
         gram(where[p], where[q]) += row[p] * row[q];
@@ -659,8 +910,10 @@ FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
   const auto found = math::symmetric_eigen(gram);
   const VectorXd& values = found.eigenvalues();
   const double most = std::max(values[count - 1], 1.0);
-  const Eigen::Index none = (values.array() <= 1e-12 * most).count();
-  Motions motions{MatrixXd(bases.size() * _modes->modes_per_body(), none)};
+  const Eigen::Index none
+      = (values.array() <= corner_resistance * most).count();
+  Motions motions{MatrixXd(bases.size() * _modes->modes_per_body(), none),
+                  (values.array() <= no_resistance * most).count()};
   for (std::size_t b = 0; b < bases.size(); ++b)
     motions.N.middleRows(b * bases[b].rows(), bases[b].rows())
         = bases[b]

@@ -16,6 +16,7 @@
 
 namespace contactx::solve
 {
+class HeldMotions;
 class RigidModes;
 
 /// @brief Pairs of a contact as the last search left them.
@@ -63,6 +64,9 @@ public:
 
   /// @brief Gap of each slave node, NaN where it cannot close (shape=(n)).
   virtual std::vector<double> closable_gap() const = 0;
+
+  /// @brief Size of the largest facet around each slave node (shape=(n)).
+  virtual std::vector<double> facet_size() const = 0;
 
   /// @brief Evaluate the law of friction as the status is now.
   virtual FrictionState friction_state() = 0;
@@ -125,9 +129,12 @@ public:
   /// @brief True if any contact has Coulomb friction.
   bool has_friction() const;
 
-  /// @brief Take the springs away: something else keeps the bodies.
+  /// @brief Take the springs away, as something else keeps the bodies, but for
+  /// supports of motions that are held.
   void release()
   {
+    if (_held)
+      return;
     _springs.reset();
     _free_modes = 0;
     _is_unbalanced = false;
@@ -168,6 +175,29 @@ public:
   /// force/length (shape=(num_owned, gdim)); nothing if there are none.
   const std::optional<std::vector<double>>& springs() const { return _springs; }
 
+  /// @brief Tell whether a step moves nodes in contact farther than their
+  /// facets along motions that nothing but the corners between facets resists,
+  /// and the forces along them are small: facets that are passed do not resist
+  /// as they did. Collective.
+  /// @param[in] dx The step (shape=(>= num_owned * gdim)).
+  bool runs_along(std::span<const double> dx) const;
+
+  /// @brief Hold bodies where they are along these motions until the step ends,
+  /// as long as the forces along them are small.
+  void hold();
+
+  /// @brief Let them go, once a step, if something pulls at the supports; held
+  /// motions are those of the next call of `stabilise`.
+  /// @return Whether they were let go.
+  bool let_go();
+
+  /// @brief Motions that are held where they are, nothing if none are.
+  const std::shared_ptr<HeldMotions>& held() const { return _held; }
+
+  /// @brief Forces of the supports that hold them, over those of all contacts;
+  /// zero where nothing pulls at them.
+  double held_force() const;
+
   /// @brief Number of free rigid modes at the last iterate.
   std::int64_t free_modes() const { return _free_modes; }
 
@@ -196,6 +226,10 @@ private:
   struct Rows;
   /// Orthonormal motions of the bodies
   struct Motions;
+  /// Displacements by motions at owned dofs
+  struct Field;
+  /// Motions that nothing but corners between facets resists
+  struct Neutral;
   /// Free motions at owned dofs, and the displacements at which they were found
   struct Loose;
   /// Nodes of a contact that may balance a body, and the time in which the
@@ -225,13 +259,20 @@ private:
   std::vector<double> cone_deficit(const std::vector<Rows>& rows) const;
   FrictionState friction_state(const Rows& rows, std::size_t n) const;
   double lowest(std::span<const Found> found) const;
-  bool loads_balance(const Motions& motions) const;
   std::vector<double> strongest(const std::vector<Rows>& rows,
                                 std::span<const double> motion,
                                 double reach) const;
+  Field displacements(const Motions& motions, std::span<const double> x) const;
+  std::vector<double> springs_of(const Field& field) const;
   void add_springs(const Motions& motions, std::span<const double> x,
                    std::span<const double> pull,
                    std::span<const double> forces);
+  void keep_in_place(Field field);
+  void note_neutral(const Motions& motions, const std::vector<Rows>& rows,
+                    std::span<const double> x, std::span<const double> pull,
+                    std::span<const double> forces,
+                    std::span<const double> of_bulk);
+  bool give_way(const std::vector<Rows>& rows, std::span<const double> pull);
 
   std::shared_ptr<const mesh::Bodies> _bodies;
   std::shared_ptr<Bulk> _bulk;
@@ -239,12 +280,13 @@ private:
   std::vector<std::int64_t> _original;
   std::unique_ptr<RigidModes> _modes;
   std::int64_t _free_modes = 0, _closed_for_balance = 0;
-  bool _is_unbalanced = false, _begins = true;
+  bool _is_unbalanced = false, _begins = true, _has_given_way = false;
+  bool _is_holding = false, _has_let_go = false;
   std::optional<std::vector<double>> _springs;
   std::unique_ptr<Loose> _loose;
-  // Forces of the loads along the modes in the reference configuration, and
-  // what is balanced
-  std::vector<double> _loads;
-  double _balanced = 0;
+  std::unique_ptr<Neutral> _neutral;
+  std::shared_ptr<HeldMotions> _held;
+  // Force that is none, and that of all contacts
+  double _balanced = 0, _pressed = 0;
 };
 } // namespace contactx::solve

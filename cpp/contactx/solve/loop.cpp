@@ -196,13 +196,16 @@ void Loop::update_active_set(bool is_first)
 Verdict Loop::judge(bool is_start, double rtol, double atol,
                     std::span<double> b)
 {
+  const bool is_same = std::exchange(_is_held, false);
+  if (is_same and (not compare(rtol, atol, b) or _path.is_on()))
+    return Verdict::goes_on;
   if (_path.is_on())
   {
     if (const Verdict verdict = judge_path(rtol, atol, b);
         verdict != Verdict::solution)
       return verdict;
   }
-  else if (not is_start)
+  else if (not is_start and not is_same)
   {
     if (not _has_stepped)
       look_ahead();
@@ -217,7 +220,7 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
       _path.resume();
       return judge_path(rtol, atol, b);
     }
-    if (not _path.is_trial()
+    if (not _path.is_trial() and not _bodies->held()
         and _path.begins(_active_set.changes(), closed, max_increment()))
     {
       _path.start();
@@ -228,7 +231,9 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
   while (is_small)
   {
     const auto end = _active_set.may_end(_forces);
-    if (end == ActiveSet::End::solution)
+    if (end == ActiveSet::End::solution and _bodies->let_go())
+      update_active_set(false);
+    else if (end == ActiveSet::End::solution)
       break;
     if (end == ActiveSet::End::frozen_pair_penetrates)
       return Verdict::frozen_pair_penetrates;
@@ -260,11 +265,6 @@ Verdict Loop::judge(bool is_start, double rtol, double atol,
 /// Brings an interior point up to the iterate, and decides whether it ends.
 Verdict Loop::judge_path(double rtol, double atol, std::span<double> b)
 {
-  if (std::exchange(_is_held, false))
-  {
-    compare(rtol, atol, b);
-    return Verdict::goes_on;
-  }
   _path.take();
   bool leads_on = not _path.is_stuck();
   double residual = 0;
@@ -326,6 +326,13 @@ double Loop::limit(std::span<const double> dx, const Correction& correction)
     const double within = within_cells(step);
     _path.shorten(within);
     return part * within;
+  }
+  if (_bodies->runs_along(dx))
+  {
+    _bodies->hold();
+    ++_version;
+    _is_held = true;
+    return 0;
   }
   _path.note(dx);
   foresee(dx);
@@ -401,6 +408,7 @@ void Loop::take_off_drift()
 /// Evaluates the residual of an iterate, and whether it is small enough.
 bool Loop::compare(double rtol, double atol, std::span<double> b)
 {
+  _system->hold(_bodies->held());
   _system->residual(b);
   const auto found = _convergence.compare(b, rtol, atol);
   _iterate = {found.residual,        found.tolerance,

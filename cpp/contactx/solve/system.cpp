@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "system.h"
+#include "held_motions.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -269,4 +270,6 @@ void System::residual(std::span<double> b)
       if (prescribed[i] == 1)
         others[i] = other_defect[i];
   }
+  if (_held)
+    _held->take_off(b);
 }

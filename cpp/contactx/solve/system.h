@@ -8,6 +8,8 @@
 
 namespace contactx::solve
 {
+class HeldMotions;
+
 /// @brief The coupled system of bulk and contacts.
 ///
 /// Unknowns of a rank are the displacements of its nodes, then those of the
@@ -92,6 +94,10 @@ public:
   /// @throws std::invalid_argument on all ranks if it has another size.
   void residual(std::span<double> b);
 
+  /// @brief Take the forces of supports off the residuals to come.
+  /// @param[in] held Motions that they hold; nothing for none.
+  void hold(std::shared_ptr<HeldMotions> held) { _held = std::move(held); }
+
   /// @brief Evaluate gaps and laws of all contacts at the state of now; pairs
   /// and status are as they stand.
   void evaluate();
@@ -120,6 +126,7 @@ private:
   void add_sums(std::vector<double>& pushed, std::span<double> force) const;
 
   std::shared_ptr<mesh::Halo> _halo;
+  std::shared_ptr<HeldMotions> _held;
   std::shared_ptr<Bulk> _bulk;
   Contacts _contacts;
   std::vector<std::size_t> _offsets;

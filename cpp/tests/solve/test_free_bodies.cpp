@@ -3,6 +3,7 @@
 
 #include "algebra.h"
 #include "free_bodies_scene.h"
+#include <contactx/solve/held_motions.h>
 #include <contactx/solve/rigid_modes.h>
 #include <gtest/gtest.h>
 #include <set>
@@ -509,26 +510,81 @@ TEST(FreeBodies, NothingDriftsWhereFrictionOrForcesAskForAMotion)
   EXPECT_FALSE(away.drift());
 }
 
-TEST(FreeBodies, LinearStrainsBalanceInTheReference)
+TEST(FreeBodies, WhatOnlyCornersResistIsHeld)
 {
-  // A moment of stresses in the current configuration, that no load has
-  for (const bool linear : {true, false})
+  for (const double friction : {0.0, 0.3})
+    for (const double pull : {0.001, 0.1})
+    {
+      Block block(2, friction, 0, 0);
+      auto& normals = block.floor->found.normals;
+      for (std::size_t i = 0; i < block.slaves.size(); ++i)
+      {
+        block.floor->kind[i] = law::slip;
+        normals[3 * i] = i % 2 == 0 ? 1e-3 : -1e-3;
+      }
+      FreeBodies free = block.scene.begun();
+      // Contact bears the weight, and is pulled along the floor
+      free.stabilise(
+          block.scene.loads(block.load({pull, 0}), block.load({0, -1})));
+      EXPECT_FALSE(free.held());
+      const std::vector<double> near = block.load({0.09, 0}),
+                                far = block.load({0.2, 0});
+      EXPECT_FALSE(free.runs_along(near));
+      const bool is_held = friction == 0 and pull < 0.01;
+      EXPECT_EQ(free.runs_along(far), is_held);
+      if (not is_held)
+        continue;
+      free.hold();
+      ASSERT_TRUE(free.held());
+      EXPECT_EQ(num_springs(free), 1u);
+      EXPECT_GE(stiffest(free), 1);
+      EXPECT_EQ(free.free_modes(), 1);
+      std::vector<double> residual = block.load({pull, 0});
+      free.held()->take_off(residual);
+      double along = 0;
+      for (std::size_t i = 0; i < residual.size(); i += 2)
+        along += residual[i];
+      // The motion has a part across the floor, of the normals
+      const auto size = double(residual.size()) / 2;
+      EXPECT_NEAR(along, 0, 1e-3 * pull * size);
+      // Of nodes with a force along the floor and one across
+      EXPECT_NEAR(free.held_force(), pull * std::sqrt(size),
+                  1e-3 * pull * size);
+      // It lasts, until the bodies are let go, once
+      free.stabilise(
+          block.scene.loads(block.load({pull, 0}), block.load({0, -1})));
+      free.held()->take_off(residual = block.load({pull, 0}));
+      EXPECT_TRUE(free.let_go());
+      free.stabilise(
+          block.scene.loads(block.load({pull, 0}), block.load({0, -1})));
+      EXPECT_FALSE(free.held());
+      EXPECT_TRUE(free.runs_along(far));
+      free.hold();
+      free.held()->take_off(residual = block.load({pull, 0}));
+      EXPECT_FALSE(free.let_go());
+    }
+}
+
+TEST(FreeBodies, ABodyThatIsPenetratedGivesWayToTheNextOne)
+{
+  for (const double clearance : {0.03, 0.06})
   {
-    Block block(2, 0, 0, 0);
-    block.scene.bulk->linear = linear;
+    Block block(2, 0, 0, -0.05);
+    std::ranges::fill(block.floor->kind, law::slip);
+    const auto ceiling = block.scene.add_contact();
+    for (std::int32_t i = 0; i < block.scene.truss.num_nodes(); ++i)
+      if (block.scene.truss.x[2 * i + 1] > 0.99)
+        ceiling->add(i, -1, {0, -1, 0}, clearance);
     FreeBodies free = block.scene.begun();
-    const std::vector<double> aside = block.load({0.1, 0}),
-                              none = block.load({0, 0});
-    free.stabilise(block.scene.loads(aside, none));
-    EXPECT_EQ(free.is_unbalanced(), not linear);
+    const Forces none = block.loads({0, 0});
+    free.stabilise(none);
+    EXPECT_EQ(std::ranges::count(ceiling->kind, law::open),
+              std::ssize(ceiling->kind));
+    // Springs of as many nodes below and above let it rise by 0.04
+    EXPECT_EQ(free.stabilise(none), clearance < 0.04);
+    EXPECT_EQ(std::ranges::count(ceiling->kind, law::open),
+              clearance < 0.04 ? 0 : std::ssize(ceiling->kind));
   }
-  // Friction may have such forces
-  Block block(2, 0.3, 0, 0);
-  block.scene.bulk->linear = true;
-  block.floor->found.paired.assign(4, 0);
-  FreeBodies free = block.scene.begun();
-  free.stabilise(block.scene.loads(block.load({0.1, 0}), block.load({0, 0})));
-  EXPECT_TRUE(free.is_unbalanced());
 }
 
 TEST(FreeBodies, WhereAllIsLinearMotionsAreAboutTheReference)
