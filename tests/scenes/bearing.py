@@ -6,13 +6,15 @@ from __future__ import annotations
 
 from typing import Any
 
-import contactx as cx
+from mpi4py import MPI
+
 import gmsh
 import numpy as np
+
+import contactx as cx
 import ufl
 from dolfinx import fem
 from dolfinx.io import gmsh as gmshio
-from mpi4py import MPI
 
 from scenes.problems import make_problem
 from story import elasticity
