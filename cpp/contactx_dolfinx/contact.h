@@ -53,6 +53,8 @@ struct Options
   /// Complementarity factor along the surface as a part of the normal one: what
   /// Newton's method finds does not depend on it, how fast it does
   double tangential_factor = 1;
+  /// Name in messages; that of its surfaces if empty
+  std::string name = {};
 };
 
 /// @brief Contact of a slave surface with a master surface or a rigid obstacle,
@@ -335,7 +337,9 @@ private:
     if (_options.weight)
       sides.weight = [&](std::span<const std::int32_t> nodes)
       { return weights(*halo, nodes); };
-    _name = contactx::problem::name_of(sides, _options.sliding);
+    _name = _options.name.empty()
+                ? contactx::problem::name_of(sides, _options.sliding)
+                : _options.name;
     _discrete = contactx::problem::make_contact(mesh, sides, core_options(),
                                                 std::move(prescribed));
     _results = std::make_shared<contactx::results::Results>(_discrete);

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -71,6 +72,7 @@ class Contact:
         smooth: bool = False,
         weight: float | ufl.core.expr.Expr = 1.0,
         tangential_factor: float = 1.0,
+        name: str | None = None,
     ):
         """Create a contact.
 
@@ -125,6 +127,8 @@ class Contact:
                 which is the stiffness of the cells; with friction only. It changes the iterations,
                 not the solution. Stiff thin bodies that friction alone supports, such as slabs on
                 soft ground, converge with 0.05 and not with 1.
+            name: Name in messages and files, of letters, digits, ``_`` and ``-``; the numbers of
+                contacts if there is none.
 
         Raises:
             TypeError: If an argument is of another kind.
@@ -144,6 +148,7 @@ class Contact:
             adjust=adjust,
             smooth=smooth,
             tangential_factor=tangential_factor,
+            name=name,
         )
         check_weight(weight)
         self.slave = slave
@@ -159,6 +164,7 @@ class Contact:
         self.tangential_factor = tangential_factor
         self.friction = friction
         self.tied = bool(tied)
+        self.name = name
         self._core_options().check(is_self=self.is_self)
         self._discrete: DiscreteContact | None = None
         self._values: ContactValues | None = None
@@ -176,7 +182,9 @@ class Contact:
         super().__setattr__(name, value)
 
     def __repr__(self) -> str:
-        """Name the surfaces."""
+        """Name the contact, or its surfaces."""
+        if self.name is not None:
+            return self.name
         if self.is_self:
             return f"Contact of {self.slave} with itself"
         master = self.master if isinstance(self.master, Surface) else type(self.master).__name__
@@ -568,6 +576,7 @@ def _check_options(
     adjust: Any,
     smooth: Any,
     tangential_factor: Any,
+    name: Any,
 ) -> None:
     """Check the kinds of the arguments of a Contact; they are described there.
 
@@ -575,6 +584,9 @@ def _check_options(
         TypeError: If an argument is of another kind.
         ValueError: If the surfaces share facets, or an option is out of its range.
     """
+    if name is not None and not (isinstance(name, str) and re.fullmatch(r"[\w-]+", name)):
+        kind = TypeError if not isinstance(name, str) else ValueError
+        raise kind(f"name is {name!r}: give a text of letters, digits, _ and -, such as 'seal'")
     if not isinstance(slave, Surface):
         raise TypeError(
             f"slave must be a contactx.Surface, not {type(slave).__name__}: "

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -34,7 +34,9 @@ class VTKOutput:
             problem.solve()
             output.write(0.0)
 
-    On several ranks all of them call it, and each writes a file of its part.
+    Of several contacts the fields have names or numbers behind theirs, and without these the
+    largest pressure and status, and the smallest gap, of all. On several ranks all of them call it,
+    and each writes a file of its part.
     """
 
     def __init__(
@@ -119,16 +121,26 @@ class VTKOutput:
             raise TypeError(f"t is {described(t)}: give a number")
         if not np.isfinite(t):
             raise ValueError(f"t is {t}: give a finite number")
-        functions = [self._u, *self._fields]
-        for k, contact in enumerate(self._contacts):
-            # Several contacts have fields of the same names
-            suffix = f"_{k}" if len(self._contacts) > 1 else ""
+        functions = [self._u, *self._fields, *self._merged()]
+        for contact, suffix in zip(self._contacts, _suffixes(self._contacts), strict=True):
             for name in ("pressure", "traction", "gap", "status"):
                 function = getattr(contact, name)
                 function.name = name + suffix
                 functions.append(function)
         with agreed(self._comm):
             self._file.write(functions, float(t))
+
+    def _merged(self) -> list[fem.Function]:
+        """One pressure, gap and status of all contacts, where there are several."""
+        if len(self._contacts) < 2:
+            return []
+        merged = []
+        for name, larger in (("pressure", np.fmax), ("gap", np.fmin), ("status", np.fmax)):
+            functions = [getattr(contact, name) for contact in self._contacts]
+            function = fem.Function(functions[0].function_space, name=name)
+            function.x.array[:] = larger.reduce([each.x.array for each in functions])
+            merged.append(function)
+        return merged
 
     def close(self) -> None:
         """Close the file.
@@ -141,6 +153,24 @@ class VTKOutput:
         self._closed = True
         with agreed(self._comm):
             self._file.close()
+
+
+def _suffixes(contacts: Sequence[Contact]) -> list[str]:
+    """What goes behind the names of fields and columns of each contact.
+
+    Args:
+        contacts: Contacts, of whose names some may be none.
+
+    Raises:
+        ValueError: If two have the same name.
+    """
+    names = [
+        contact.name or (str(k) if len(contacts) > 1 else "") for k, contact in enumerate(contacts)
+    ]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"contacts has several with the name {twice!r}: give each its own")
+    return [f"_{name}" if name else "" for name in names]
 
 
 def _check_output(u: Any, contacts: Any, fields: Any) -> None:
@@ -164,6 +194,7 @@ def _check_output(u: Any, contacts: Any, fields: Any) -> None:
         for item in items:
             if not isinstance(item, kind):
                 raise TypeError(f"{name} holds a {type(item).__name__}: pass {what}")
+    _suffixes(contacts)
     functions = {f"fields[{k}]": f for k, f in enumerate(fields)}
     functions |= {f"contacts[{k}]": contact.pressure for k, contact in enumerate(contacts)}
     for name, function in functions.items():
@@ -189,25 +220,34 @@ class CSVOutput:
             for step in cx.LoadSteps(problem, 10, update=update):
                 totals.write(step.t)
 
-    The columns are ``t`` and for each contact, with its number behind the name where there are
-    several: ``force_x``, ``force_y`` and ``force_z``, the force on the slave side; ``closed`` and
-    ``slipping``, numbers of slave nodes; ``area``, reference area of those closed;
+    The columns are ``t`` and for each contact, with its name behind it, or its number where there
+    are several: ``force_x``, ``force_y`` and ``force_z``, the force on the slave side; ``closed``
+    and ``slipping``, numbers of slave nodes; ``area``, reference area of those closed;
     ``largest_pressure``; ``smallest_gap``, NaN where no node has a pair; and ``dissipation``, work
-    of friction so far. Each line is in the file before ``write`` returns. All ranks call it; rank 0
-    writes.
+    of friction so far; then columns of one's own. Each line is in the file before ``write``
+    returns. All ranks call it; rank 0 writes.
     """
 
-    def __init__(self, path: str | Path, contacts: Sequence[Contact]):
+    def __init__(
+        self,
+        path: str | Path,
+        contacts: Sequence[Contact],
+        *,
+        columns: Mapping[str, Callable[[], float]] | None = None,
+    ):
         """Open the file.
 
         Args:
             path: File with the suffix ``.csv``; one of this name is replaced. Its folder is made.
             contacts: Contacts of a ContactProblem.
+            columns: Further columns: for each name a function without arguments, called on all
+                ranks as a line is written, that returns the number of rank 0.
 
         Raises:
             OSError: If the folder or the file cannot be made.
             TypeError: If an argument is of another kind.
-            ValueError: If the suffix is another one, or there are no contacts.
+            ValueError: If the suffix is another one, there are no contacts, or a column has the
+                name of another one.
         """
         if isinstance(contacts, Contact) or not isinstance(contacts, Sequence):
             raise TypeError(
@@ -227,7 +267,22 @@ class CSVOutput:
             )
         self._contacts = list(contacts)
         self._comm = contacts[0].discrete.halo.comm
-        self._names = [name for k in range(len(contacts)) for name in self._columns(k)]
+        self._columns = dict(columns or {})
+        suffixes = _suffixes(contacts)
+        self._names = [
+            name
+            for contact, suffix in zip(contacts, suffixes, strict=True)
+            for name in self._names_of(contact, suffix)
+        ]
+        for name, value in self._columns.items():
+            if not callable(value):
+                raise TypeError(
+                    f"columns[{name!r}] is {described(value)}: give a function that returns a "
+                    "number, such as a lambda"
+                )
+            if name in ("t", *self._names):
+                raise ValueError(f"columns has {name!r}, as contacts have: give it another name")
+        self._names += self._columns
         with agreed(self._comm):
             if self._comm.rank == 0:
                 make_folder("path", self._path)
@@ -258,13 +313,14 @@ class CSVOutput:
         if not is_number(t):
             raise TypeError(f"t is {described(t)}: give a number")
         row = [float(t), *(value for contact in self._contacts for value in self._totals(contact))]
+        row += [float(value()) for value in self._columns.values()]
         with agreed(self._comm):
             if self._comm.rank == 0:
                 self._append("a", row)
 
-    def _columns(self, k: int) -> list[str]:
-        suffix = f"_{k}" if len(self._contacts) > 1 else ""
-        forces = [f"force_{axis}" for axis in "xyz"[: len(self._contacts[k].force)]]
+    @staticmethod
+    def _names_of(contact: Contact, suffix: str) -> list[str]:
+        forces = [f"force_{axis}" for axis in "xyz"[: len(contact.force)]]
         others = ["closed", "slipping", "area", "largest_pressure", "smallest_gap", "dissipation"]
         return [name + suffix for name in (*forces, *others)]
 

@@ -572,7 +572,10 @@ int main(int argc, char* argv[])
     };
     solve(scene, "own law", base, {.friction_law = weakens, .offset = offset});
     solve(scene, "tangential factor", base,
-          {.friction = 0.3, .offset = offset, .tangential_factor = 0.1});
+          {.friction = 0.3,
+           .offset = offset,
+           .tangential_factor = 0.1,
+           .name = "rubs"});
 
     refusals(scene);
 

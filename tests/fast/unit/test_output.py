@@ -45,6 +45,61 @@ def test_paraview_output(tmp_path: Path, contacts):
     assert data["pressure" + suffix].max() == pytest.approx(all_contacts[0].pressure.x.array.max())
     assert np.nanmin(data["gap" + suffix]) == pytest.approx(0, abs=1e-12)
     assert set(data["status" + suffix]) <= {-1, 0, 2}
+    # All contacts in one
+    assert data["pressure"].max() == data["pressure" + suffix].max()
+    assert set(data["status"]) == ({-1, 0, 2} if contacts == 2 else {-1, 2})
+    assert np.nanmax(data["gap"]) >= np.nanmin(data["gap" + suffix])
+    assert np.isfinite(data["gap"]).sum() >= np.isfinite(data["gap" + suffix]).sum()
+
+
+def test_names_of_contacts_are_those_of_their_fields_and_columns(tmp_path: Path):
+    scene = Blocks(CellType.quadrilateral)
+    surfaces = cx.Surface(scene.tags, Tag.UPPER_X1), cx.Plane((9, 0), (-1, 0))
+    contacts = [scene.contact(name="seat"), cx.Contact(*surfaces)]
+    problem = scene.problem(*contacts)
+    assert repr(contacts[0]) == "seat" and "Surface" in repr(contacts[1])
+    drag = {"force_over_area": lambda: contacts[0].force[1] / contacts[0].area.sum()}
+    with (
+        cx.VTKOutput(tmp_path / "blocks.pvd", scene.u, contacts) as output,
+        cx.CSVOutput(tmp_path / "totals.csv", contacts, columns=drag) as totals,
+    ):
+        problem.solve()
+        output.write(1.0)
+        totals.write(1.0)
+    data = pyvista.get_reader(str(tmp_path / "blocks.pvd")).read()[0].point_data
+    assert {"pressure_seat", "pressure_1", "pressure"} <= set(data.keys())
+    header, last = (line.split(",") for line in (tmp_path / "totals.csv").read_text().splitlines())
+    row = dict(zip(header, map(float, last), strict=True))
+    assert row["force_over_area"] == drag["force_over_area"]() != 0
+    assert row["force_y_seat"] == contacts[0].force[1]
+
+
+@pytest.mark.parametrize(
+    "columns, kind, text",
+    [
+        ({"drag": 1.0}, TypeError, r"columns\['drag'\] is .*: give a function"),
+        ({"area_0": lambda: 0.0}, ValueError, "columns has 'area_0'"),
+    ],
+)
+def test_columns_that_are_refused(tmp_path: Path, columns, kind, text):
+    scene = Blocks(CellType.quadrilateral)
+    surfaces = cx.Surface(scene.tags, Tag.UPPER_X1), cx.Plane((9, 0), (-1, 0))
+    contacts = [scene.contact(), cx.Contact(*surfaces)]
+    scene.problem(*contacts)
+    with pytest.raises(kind, match=text):
+        cx.CSVOutput(tmp_path / "totals.csv", contacts, columns=columns)
+
+
+def test_names_that_are_refused(tmp_path: Path):
+    scene = Blocks(CellType.quadrilateral)
+    surfaces = cx.Surface(scene.tags, Tag.UPPER_X1), cx.Plane((9, 0), (-1, 0))
+    for name, kind in ((1, TypeError), ("", ValueError), ("a seat", ValueError)):
+        with pytest.raises(kind, match=r"name is .*letters, digits"):
+            cx.Contact(*surfaces, name=name)
+    contacts = [scene.contact(name="seat"), cx.Contact(*surfaces, name="seat")]
+    scene.problem(*contacts)
+    with pytest.raises(ValueError, match="several with the name 'seat'"):
+        cx.CSVOutput(tmp_path / "totals.csv", contacts)
 
 
 def test_a_program_that_goes_to_another_folder(tmp_path: Path, monkeypatch):
