@@ -300,7 +300,7 @@ def main() -> None:
     solve("mortar friction field", tags, V, base, **mortar, friction=rough, **little)
     law = cx.FrictionLaw(lambda p, s: (0.2 + 0.1 * ufl.exp(-s / 0.01)) * p)
     solve("own law", tags, V, base, friction=law, **little)
-    solve("tangential factor", tags, V, base, tangential_factor=0.1, name="rubs", **rubs)
+    solve("tangential factor", tags, V, base, tangential_factor=0.1, **rubs)
     refusals(tags, V)
     tolerances("prestress", tags, V, 1e3)
     tolerances("mortar prestress", tags, V, 1e3, **mortar)
