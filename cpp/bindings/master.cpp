@@ -226,6 +226,17 @@ void contactx_bindings::master(py::module_& m)
       m, "Master", "Pairs of the slave nodes of a contact with its master")
       .def_property_readonly("reach", &Master::reach)
       .def_property_readonly("is_rigid", &Master::is_rigid)
+      .def("turn",
+           [](const Master& self, const Array<double>& x) -> py::object
+           {
+             const auto turn = self.turn(view(x));
+             if (not turn)
+               return py::none();
+             const py::ssize_t g = self.gdim();
+             return array(
+                 *turn,
+                 {static_cast<py::ssize_t>(turn->size()) / (g * g), g, g});
+           })
       .def("search", [](Master& self, const Array<double>& x,
                         const Array<std::int8_t>& closed)
            { return self.search(view(x), view(closed)); })

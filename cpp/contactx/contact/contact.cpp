@@ -230,6 +230,7 @@ void Contact::begin_step()
   _law->begin_step();
   _master->rebuild();
   freeze(false);
+  turn_tractions();
   _master->begin_step();
   for (std::size_t i = 0; i < _touched.size(); ++i)
     _touched[i] = _nodes->closed(i);
@@ -243,6 +244,29 @@ void Contact::begin_step()
   }
   else
     take(_master->pairs());
+}
+
+/// Turns the tractions with a master that has turned since, as a better start.
+void Contact::turn_tractions()
+{
+  if (not _history or not updates_kinematics())
+    return;
+  const auto turn = _master->turn(_halo->now()->x);
+  if (not turn)
+    return;
+  const int g = gdim();
+  for (std::int32_t i = 0; i < _nodes->num_nodes(); ++i)
+  {
+    double* t = _nodes->multiplier.data() + std::size_t(g) * i;
+    Vector<3> before{};
+    std::copy_n(t, g, before.begin());
+    for (int r = 0; r < g; ++r)
+    {
+      t[r] = 0;
+      for (int c = 0; c < g; ++c)
+        t[r] += (*turn)[g * (std::size_t(g) * i + r) + c] * before[c];
+    }
+  }
 }
 
 void Contact::accept()

@@ -275,6 +275,7 @@ private:
   void nodes_changed();
   void take_start();
   void find_free();
+  void turn_tractions();
   void find_front();
   void leave_out_empty();
   void find_rest();

@@ -69,6 +69,13 @@ public:
   /// collective.
   virtual void nodes_changed() {}
 
+  /// @brief Rotation of the master under each slave node since the step
+  /// before was accepted.
+  /// @return Rotations (shape=(n, gdim, gdim)); nothing where all is as it
+  /// was.
+  virtual std::optional<std::vector<double>>
+  turn(std::span<const double> x) const = 0;
+
   /// @brief Rotation of the master from some positions to others.
   /// @param[in] before Positions.
   /// @param[in] x Positions.

@@ -282,6 +282,60 @@ std::vector<kernel::FacetSlip> NodeToSurface::slip() const
   return from;
 }
 
+std::optional<std::vector<double>>
+NodeToSurface::turn(std::span<const double> x) const
+{
+  const std::vector<double>& x0 = _halo->start()->x;
+  if (std::ranges::equal(x, x0))
+    return std::nullopt;
+  const int g = gdim();
+  const std::vector<double> before = frames(x0), now = frames(x);
+  std::vector<double> turn(size() * g * g, 0);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (int r = 0; r < g; ++r)
+      for (int c = 0; c < g; ++c)
+      {
+        double& value = turn[g * (g * i + r) + c];
+        if (_pairing.facet()[i] < 0)
+          value = r == c;
+        else
+          value = dot(now.data() + g * (g * i + r),
+                      before.data() + g * (g * i + c), g);
+      }
+  return turn;
+}
+
+/// Unit normal and directions along each slave node's facet, in columns.
+std::vector<double> NodeToSurface::frames(std::span<const double> x) const
+{
+  const int g = gdim();
+  const auto [foot, normal] = facet_points(x, _pairing.xi());
+  std::vector<double> beside = _pairing.xi();
+  for (std::size_t i = 0; i < size(); ++i)
+    beside[2 * i] += 1;
+  const auto ahead = facet_points(x, beside).x;
+  std::vector<double> frames(size() * g * g);
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    Vector<3> n{}, along{};
+    for (int k = 0; k < g; ++k)
+    {
+      n[k] = normal[g * i + k];
+      along[k] = ahead[g * i + k] - foot[g * i + k];
+    }
+    along = along - dot(n, along) * n;
+    const double length = norm(along);
+    if (length > 0)
+      for (double& a : along)
+        a /= length;
+    const std::array columns{n, along, cross(n, along)};
+    for (int r = 0; r < g; ++r)
+      for (int c = 0; c < g; ++c)
+        frames[g * (g * i + r) + c] = columns[c][r];
+  }
+  return frames;
+}
+
 void NodeToSurface::touch(std::span<const std::int8_t> which,
                           std::span<const double> x, std::span<const double> u,
                           std::span<const double> offset)

@@ -30,6 +30,8 @@ public:
   void begin_step() override;
   void rebuild() override;
   void nodes_changed() override;
+  std::optional<std::vector<double>>
+  turn(std::span<const double> x) const override;
   void touch(std::span<const std::int8_t> which, std::span<const double> x,
              std::span<const double> u,
              std::span<const double> offset) override;
@@ -93,6 +95,7 @@ private:
   void restore(std::span<const std::int32_t> facet,
                const std::vector<Saved>& saved);
   std::vector<Saved> saved_pairs() const;
+  std::vector<double> frames(std::span<const double> x) const;
 
   search::Pairing _pairing;
   MeasuredPlaces _places;

@@ -215,6 +215,19 @@ bool ObstacleMaster::has_unknown_motion(double tolerance) const
   return _obstacle->parameters(_gdim) != _parameters;
 }
 
+std::optional<std::vector<double>>
+ObstacleMaster::turn(std::span<const double>) const
+{
+  if (not _measures_slip)
+    return std::nullopt;
+  const std::vector<double> one = _placed.turn(_obstacle->placement(_gdim));
+  std::vector<double> all;
+  all.reserve(size() * one.size());
+  for (std::size_t i = 0; i < size(); ++i)
+    all.insert(all.end(), one.begin(), one.end());
+  return all;
+}
+
 void ObstacleMaster::touch(std::span<const std::int8_t> which,
                            std::span<const double> x, std::span<const double>,
                            std::span<const double> offset)

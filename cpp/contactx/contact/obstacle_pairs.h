@@ -55,6 +55,10 @@ public:
   void accept(std::span<const double> x) override;
   void begin_step() override;
 
+  /// @copydoc Master::turn; all of it turns as one
+  std::optional<std::vector<double>>
+  turn(std::span<const double> x) const override;
+
   /// @copydoc Master::touch; the path is relative to the obstacle as it was at
   /// the step's start
   void touch(std::span<const std::int8_t> which, std::span<const double> x,

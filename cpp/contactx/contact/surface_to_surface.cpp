@@ -521,6 +521,15 @@ void SurfaceToSurface::touch(std::span<const std::int8_t> which,
     _slip.touch(which, of_slip(x, u), offset, along(u));
 }
 
+std::optional<std::vector<double>>
+SurfaceToSurface::turn(std::span<const double> x) const
+{
+  const std::vector<double>& x0 = _halo->start()->x;
+  if (std::ranges::equal(x, x0))
+    return std::nullopt;
+  return rotations(x0, x);
+}
+
 std::vector<double> SurfaceToSurface::rotations(std::span<const double> from,
                                                 std::span<const double> x) const
 {

@@ -38,6 +38,8 @@ public:
   void begin_step() override;
   void rebuild() override;
   void nodes_changed() override;
+  std::optional<std::vector<double>>
+  turn(std::span<const double> x) const override;
   std::vector<double> rotations(std::span<const double> before,
                                 std::span<const double> x) const override;
   void touch(std::span<const std::int8_t> which, std::span<const double> x,

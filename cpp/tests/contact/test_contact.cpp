@@ -565,6 +565,35 @@ TEST(Contact, TurnsAndClosingsAreThoseOfAStep)
   EXPECT_EQ(nodes.slip_closings, std::vector<std::int32_t>(n, 0));
 }
 
+TEST(Contact, TractionsTurnWithTheMaster)
+{
+  for (int dim : {2, 3})
+  {
+    ContactScene scene(dim, 0.0);
+    const std::int32_t n = scene.sheets.num_slaves;
+    const auto contact = scene.contact<NodeToSurface>(coulomb(n, 0.5));
+    contact->begin_step();
+    contact->search();
+    contact->update_gap();
+    std::vector<double>& t = contact->nodes()->multiplier;
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      t[dim * i] = 0.2;
+      t[dim * i + dim - 1] = 1;
+    }
+    contact->accept();
+    const double angle = 0.3;
+    *scene.u = scene.sheets.moved_by(scene.sheets.turned(angle));
+    contact->begin_step();
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      EXPECT_NEAR(t[dim * i], 0.2 * std::cos(angle) - std::sin(angle), 1e-13);
+      EXPECT_NEAR(t[dim * i + dim - 1], 0.2 * std::sin(angle) + std::cos(angle),
+                  1e-13);
+    }
+  }
+}
+
 TEST(Contact, ForcesStayWhereAreasChange)
 {
   // A fold of the slave that turns away from the master carries nothing

@@ -73,6 +73,31 @@ TYPED_TEST(DeformableMasters, WeightsReproduceLinearFields)
   }
 }
 
+TYPED_TEST(DeformableMasters, AMasterTurnsWithItsFacets)
+{
+  for (int gdim : {2, 3})
+  {
+    TwoSheets sheets(gdim, 0.01);
+    const auto pairs = sheets.template pairs<TypeParam>();
+    EXPECT_FALSE(pairs->turn(sheets.x));
+    const double angle = 0.4;
+    const auto turn = pairs->turn(sheets.turned(angle));
+    ASSERT_TRUE(turn);
+    const int z = gdim - 1;
+    for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
+      for (int r = 0; r < gdim; ++r)
+        for (int c = 0; c < gdim; ++c)
+        {
+          double expected = r == c;
+          if ((r == 0 or r == z) and (c == 0 or c == z))
+            expected = r == c   ? std::cos(angle)
+                       : r == 0 ? -std::sin(angle)
+                                : std::sin(angle);
+          EXPECT_NEAR((*turn)[gdim * (gdim * i + r) + c], expected, 1e-12);
+        }
+  }
+}
+
 TYPED_TEST(DeformableMasters, ComplianceIsThatOfTheFacetsInFront)
 {
   TwoSheets sheets(3, 0.01);

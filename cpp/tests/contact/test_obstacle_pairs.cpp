@@ -242,10 +242,16 @@ TEST(ObstacleMaster, WhatAnObstacleCarriesDoesNotSlip)
     const auto way = across(scene, x, scene.x, stayed.normal);
     EXPECT_LE(difference(stayed.slip, way), 1e-14);
     EXPECT_GE(largest(way), 0.1);
+    // Tractions turn with it
+    const auto turn = master->turn(scene.x).value();
+    const auto one = moving.from.turn(moving.to);
+    ASSERT_EQ(turn.size(), scene.n * one.size());
+    EXPECT_TRUE(std::equal(one.begin(), one.end(), turn.end() - one.size()));
     // The next step starts from there
     master->accept(x);
     master->begin_step();
     EXPECT_LE(largest(given(*master, scene, x).slip), 1e-14);
+    EXPECT_LE(largest(master->turn(x).value()), 1);
   }
 }
 
@@ -325,6 +331,7 @@ TEST(ObstacleMaster, NothingIsTangentialWithoutFriction)
   EXPECT_TRUE(pairs.at(0).slip.empty());
   // No slip, where it starts and what moves the obstacle
   EXPECT_EQ(master->save().size(), 5u);
+  EXPECT_FALSE(master->turn(scene.x));
 }
 
 TEST(ObstacleMaster, PairsNodesThatFaceItWithinReach)
