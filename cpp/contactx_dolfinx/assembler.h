@@ -355,9 +355,9 @@ public:
 
   /// @brief Part of a step that may be taken.
   ///
-  /// No cell may turn inside out. Zero means that the step was the affine one
-  /// of an interior point: the next residual is that of its corrector, by the
-  /// same Jacobian.
+  /// No cell may turn inside out. Zero means that the iterate stays, and that
+  /// the next residual is another one: of the corrector of an interior point,
+  /// by the same Jacobian, or with bodies that are held.
   /// @param[in] dx Increment of the unknowns.
   /// @return Part of it, at most 1.
   double limit(::Vec dx)

@@ -451,8 +451,9 @@ class ContactAssembler:
         """Return the part of a step that may be taken.
 
         It keeps each cell from turning inside out. It is zero where the step is the affine one of
-        an interior point, whose corrector is solved for next, by the same Jacobian: ``update`` by
-        this part leaves the iterate as it is, then call ``settle`` again. Bodies that pass through
+        an interior point, whose corrector is solved for next, by the same Jacobian, or where bodies
+        are held from now on: ``update`` by this part leaves the iterate as it is, then call
+        ``settle`` again. Bodies that pass through
         each other are found by the audit, once the step has converged.
 
         Args:

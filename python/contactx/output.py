@@ -62,6 +62,7 @@ class VTKOutput:
             ValueError: If the suffix is another one, or a function is of another space.
         """
         _check_output(u, contacts, fields)
+        self._suffixes = _suffixes(contacts)
         path = check_path("path", path)
         if path.suffix not in WRITERS:
             raise ValueError(
@@ -122,7 +123,7 @@ class VTKOutput:
         if not np.isfinite(t):
             raise ValueError(f"t is {t}: give a finite number")
         functions = [self._u, *self._fields, *self._merged()]
-        for contact, suffix in zip(self._contacts, _suffixes(self._contacts), strict=True):
+        for contact, suffix in zip(self._contacts, self._suffixes, strict=True):
             for name in ("pressure", "traction", "gap", "status"):
                 function = getattr(contact, name)
                 function.name = name + suffix
@@ -194,7 +195,6 @@ def _check_output(u: Any, contacts: Any, fields: Any) -> None:
         for item in items:
             if not isinstance(item, kind):
                 raise TypeError(f"{name} holds a {type(item).__name__}: pass {what}")
-    _suffixes(contacts)
     functions = {f"fields[{k}]": f for k, f in enumerate(fields)}
     functions |= {f"contacts[{k}]": contact.pressure for k, contact in enumerate(contacts)}
     for name, function in functions.items():

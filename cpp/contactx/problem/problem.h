@@ -289,8 +289,9 @@ public:
   void read();
 
   /// @brief Part of a step that may be taken, see solve::Loop::limit; zero
-  /// where the step is the affine one of an interior point: the next residual
-  /// is that of its corrector, by the same Jacobian.
+  /// where the iterate stays and the next residual is another one: of the
+  /// corrector of an interior point, by the same Jacobian, or with bodies that
+  /// are held.
   /// @param[in] dx Increment, which is added to the unknowns (shape=(size)).
   double limit(std::span<const double> dx);
 

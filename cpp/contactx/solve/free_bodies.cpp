@@ -84,6 +84,28 @@ VectorXd combined(const MatrixXd& gram, const VectorXd& work)
     throw std::domain_error("rigid motions of the bodies are not independent");
   return factors.solve(work);
 }
+/// Part of displacements that is a combination of motions; collective.
+/// @param[in] motions Displacements by each at owned dofs (shape=(k, n)).
+/// @param[in] u Displacements, those of owned dofs first (shape=(>= n)).
+/// @return How much of each (shape=(k)).
+VectorXd part_of(mesh::Ranks& ranks, const MatrixXd& motions,
+                 std::span<const double> u)
+{
+  // The last column is the work of the displacements
+  const Eigen::Index k = motions.rows();
+  MatrixXd sums = MatrixXd::Zero(k, k + 1);
+  for (Eigen::Index i = 0; i < motions.cols(); ++i)
+  {
+    // A body moves by its own modes, of those of many
+    for (Eigen::Index p = 0; p < k; ++p)
+      if (const double by_mode = motions(p, i); by_mode != 0)
+        sums.col(p) += by_mode * motions.col(i);
+    sums.col(k) += u[i] * motions.col(i);
+  }
+  if (ranks.size() > 1)
+    ranks.reduce(std::span(sums.data(), sums.size()), Reduction::sum);
+  return combined(sums.leftCols(k), sums.col(k));
+}
 } // namespace
 
 /// Slave nodes of a contact that have a pair.
@@ -365,9 +387,8 @@ bool FreeBodies::stabilise(const Forces& forces)
     return values;
   };
   const std::vector<double> force = checked(forces.residual());
-  const double balanced = balance_rel_tol * forces.scale();
   const std::vector<double> pull = along(x, force, -1);
-  _balanced = balanced;
+  _balanced = balance_rel_tol * forces.scale();
   const std::vector<Rows> rows = this->rows(x);
   bool closed_any = _begins and close_before_springs(rows, pull);
   if (_begins)
@@ -393,7 +414,7 @@ bool FreeBodies::stabilise(const Forces& forces)
       f += N.transpose() * math::column(cone_deficit(rows));
     // A norm that does not depend on which basis of the modes round-off has
     // chosen
-    if (f.norm() <= balanced)
+    if (f.norm() <= _balanced)
     {
       _is_unbalanced = false;
       break;
@@ -410,7 +431,8 @@ bool FreeBodies::stabilise(const Forces& forces)
     closed_any = true;
   }
   _free_modes = N.cols();
-  note_neutral(motions, rows, x, pull, force, checked(forces.of_bulk()));
+  if (not has_friction() and motions.N.cols() > motions.num_free)
+    note_neutral(motions, rows, x, pull, force, checked(forces.of_bulk()));
   if (_neutral and _is_holding)
     hold();
   else if (_free_modes > 0)
@@ -483,10 +505,7 @@ void FreeBodies::note_neutral(const Motions& motions,
                               std::span<const double> forces,
                               std::span<const double> of_bulk)
 {
-  _neutral.reset();
   const Eigen::Index k = motions.N.cols();
-  if (has_friction() or k == motions.num_free)
-    return;
   _pressed = std::sqrt(mesh::total(
       ranks(), (math::column(forces) - math::column(of_bulk)).squaredNorm()));
   // Where bodies are held the end of the step decides
@@ -525,14 +544,8 @@ bool FreeBodies::runs_along(std::span<const double> dx) const
 {
   if (not _neutral or _is_holding)
     return false;
-  const MatrixXd& field = _neutral->field.values;
-  const Eigen::Index k = field.rows();
-  MatrixXd sums(k, k + 1);
-  sums << field * field.transpose(),
-      field * Eigen::Map<const VectorXd>(dx.data(), field.cols());
-  if (ranks().size() > 1)
-    ranks().reduce(std::span(sums.data(), sums.size()), Reduction::sum);
-  const VectorXd motion = combined(sums.leftCols(k), sums.col(k));
+  const Eigen::Index k = _neutral->field.values.rows();
+  const VectorXd motion = part_of(ranks(), _neutral->field.values, dx);
   bool is_far = false;
   for (std::size_t i = 0; i < _neutral->size.size(); ++i)
     is_far = is_far
@@ -679,22 +692,12 @@ std::optional<std::vector<double>> FreeBodies::drift()
           throw std::invalid_argument("displacements must have a value for "
                                       "each owned dof");
       });
-  // The last column is the work of the step
-  const Eigen::Index k = motions.rows();
-  MatrixXd sums = MatrixXd::Zero(k, k + 1);
+  std::vector<double> step(n);
   for (std::size_t i = 0; i < n; ++i)
-  {
-    // A body moves by its own modes, of those of many
-    for (Eigen::Index p = 0; p < k; ++p)
-      if (const double u = motions(p, i); u != 0)
-        sums.col(p) += u * motions.col(i);
-    sums.col(k) += (now[i] - _loose->before[i]) * motions.col(i);
-  }
-  if (ranks().size() > 1)
-    ranks().reduce(std::span(sums.data(), sums.size()), Reduction::sum);
+    step[i] = now[i] - _loose->before[i];
   std::vector<double> movement(n);
   VectorXd::Map(movement.data(), n)
-      = motions.transpose() * combined(sums.leftCols(k), sums.col(k));
+      = motions.transpose() * part_of(ranks(), motions, step);
   return movement;
 }
 

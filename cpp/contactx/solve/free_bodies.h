@@ -108,7 +108,8 @@ inline constexpr double balance_rel_tol = 1e-6;
 /// not balance, the open nodes that would touch first in a rigid motion of the
 /// bodies are closed, until the closed nodes can balance them; then those
 /// slipping nodes stick whose slip this motion reverses first. The residual is
-/// never touched, so no solution depends on this. All ranks must take part in
+/// not touched, so no solution depends on this; but for motions that are held,
+/// see HeldMotions, which `held_force` tells of. All ranks must take part in
 /// all of it, and find the same.
 class FreeBodies
 {
@@ -175,10 +176,10 @@ public:
   /// force/length (shape=(num_owned, gdim)); nothing if there are none.
   const std::optional<std::vector<double>>& springs() const { return _springs; }
 
-  /// @brief Tell whether a step moves nodes in contact farther than their
-  /// facets along motions that nothing but the corners between facets resists,
-  /// and the forces along them are small: facets that are passed do not resist
-  /// as they did. Collective.
+  /// @brief Tell whether a step moves nodes in contact by more than a part of
+  /// their facets along motions that nothing but the corners between facets
+  /// resists, and the forces along them are small: facets that are passed do
+  /// not resist as they did. Collective.
   /// @param[in] dx The step (shape=(>= num_owned * gdim)).
   bool runs_along(std::span<const double> dx) const;
 

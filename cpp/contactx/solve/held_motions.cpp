@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "held_motions.h"
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 
@@ -16,16 +15,17 @@ HeldMotions::HeldMotions(mesh::Ranks& ranks, MatrixXd field,
     : _ranks(ranks), _field(std::move(field))
 {
   const Eigen::Index k = _field.rows();
-  _work = MatrixXd::Zero(k, k);
+  MatrixXd work = MatrixXd::Zero(k, k);
   for (std::size_t i = 0; i < supports.size(); ++i)
     if (supports[i] > 0)
     {
       const auto dof = static_cast<Eigen::Index>(i);
       _dofs.push_back(dof);
-      _work += _field.col(dof) * _field.col(dof).transpose();
+      work += _field.col(dof) * _field.col(dof).transpose();
     }
   if (_ranks.size() > 1)
-    _ranks.reduce(std::span(_work.data(), _work.size()), mesh::Reduction::sum);
+    _ranks.reduce(std::span(work.data(), work.size()), mesh::Reduction::sum);
+  _work.compute(work);
 }
 
 void HeldMotions::take_off(std::span<double> force)
@@ -34,7 +34,7 @@ void HeldMotions::take_off(std::span<double> force)
       = _field * Eigen::Map<const VectorXd>(force.data(), _field.cols());
   if (_ranks.size() > 1)
     _ranks.reduce(std::span(left.data(), left.size()), mesh::Reduction::sum);
-  const VectorXd by_motion = _work.fullPivLu().solve(left);
+  const VectorXd by_motion = _work.solve(left);
   double sum = 0;
   for (const Eigen::Index dof : _dofs)
   {

@@ -5,6 +5,7 @@
 
 #include "../mesh/ranks.h"
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,8 @@ private:
   mesh::Ranks& _ranks;
   Eigen::MatrixXd _field;
   std::vector<Eigen::Index> _dofs;
-  Eigen::MatrixXd _work; ///< of unit motions at the supports
+  /// Of unit motions at the supports
+  Eigen::FullPivLU<Eigen::MatrixXd> _work;
   double _force = 0;
 };
 } // namespace contactx::solve

@@ -51,7 +51,7 @@ bool Loop::begin_step(bool damped)
   _system->begin_step();
   _active_set.begin_step();
   _path.begin_step(damped);
-  _is_held = false;
+  _stays = false;
   _length.begin_step(damped, _convergence.scales().length);
   const std::span<const double> u = _system->bulk()->displacements();
   _start.assign(u.begin(), u.end());
@@ -196,7 +196,7 @@ void Loop::update_active_set(bool is_first)
 Verdict Loop::judge(bool is_start, double rtol, double atol,
                     std::span<double> b)
 {
-  const bool is_same = std::exchange(_is_held, false);
+  const bool is_same = std::exchange(_stays, false);
   if (is_same and (not compare(rtol, atol, b) or _path.is_on()))
     return Verdict::goes_on;
   if (_path.is_on())
@@ -314,7 +314,7 @@ double Loop::limit(std::span<const double> dx, const Correction& correction)
 {
   if (corrects(dx))
   {
-    _is_held = true;
+    _stays = true;
     return 0;
   }
   if (_path.is_on())
@@ -331,7 +331,7 @@ double Loop::limit(std::span<const double> dx, const Correction& correction)
   {
     _bodies->hold();
     ++_version;
-    _is_held = true;
+    _stays = true;
     return 0;
   }
   _path.note(dx);

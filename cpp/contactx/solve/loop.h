@@ -211,7 +211,7 @@ private:
   ActiveSet _active_set;
   InteriorPoint _path;
   // Whether a corrector is to be solved for that no solver has asked for
-  bool _is_held = false;
+  bool _stays = false;
   Forces _forces;
   StepLength _length;
   BalanceGuard _balance;
