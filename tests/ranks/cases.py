@@ -38,7 +38,7 @@ SCENES: dict[str, Callable[[], Iterator[cx.ContactProblem]]] = {
     if inspect.isgeneratorfunction(function) and not name.startswith("_")
 }
 # Scenes that name their method themselves: they are run by that one alone
-ONE_METHOD = dict.fromkeys(("clip", "sheets", "discs"), "node")
+ONE_METHOD = dict.fromkeys(("clip", "sheets", "discs", "loose_discs"), "node")
 ONE_METHOD |= {"dam_face": "surface", "dam_face_in_increments": "surface"}
 # What they are for is in that one alone, or the same in both
 ONE_METHOD |= {"tip_on_arm": "surface", "chords": "surface", "edge": "node"}

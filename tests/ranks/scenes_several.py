@@ -19,6 +19,7 @@ from dolfinx.mesh import CellType
 import meshes
 from meshes import Tag, block_tag
 from scenes import NU, Blocks, slender
+from scenes.balls import LooseBalls
 from scenes.driven import DrivenBlock
 from scenes.problems import make_problem
 from scenes.steps import DentedBlock, Sheared
@@ -180,3 +181,12 @@ def valley() -> Iterator[cx.ContactProblem]:
         down.g.value[...] = -depth
         problem.solve()
         yield problem
+
+
+def loose_discs() -> Iterator[cx.ContactProblem]:
+    """Discs that nothing holds make room for a lid, and are pressed by it."""
+    balls = LooseBalls(friction=0.3)
+    for depth in (0.4, 0.8, 1.2, 1.6):
+        balls.push(depth)
+        balls.problem.solve()
+        yield balls.problem

@@ -180,7 +180,9 @@ void SurfacesAudit::look_back(std::span<const double> start,
   overlap = mesh::largest(_halo->ranks(), overlap);
   for (const auto& [own, other, nodes] : sides)
   {
-    const double tolerance = contact_depth_max * facet_size(other, x) + overlap;
+    // Facets that have become long are no reason to allow more
+    const double size = std::min(facet_size(other, start), facet_size(other, x));
+    const double tolerance = contact_depth_max * size + overlap;
     FoundNodes found
         = passed_nodes(*_halo, own, other, start, x, nodes, tolerance);
     found.count += findings.passed.count;

@@ -601,8 +601,7 @@ Triplets Contact::block(std::string_view term,
   return all;
 }
 
-Contact::Change Contact::change(std::span<const double> displacement,
-                                bool with_normals) const
+Contact::Change Contact::change(std::span<const double> displacement) const
 {
   const std::size_t n = _nodes->num_nodes(), size = _nodes->size();
   const int g = gdim();
@@ -629,22 +628,15 @@ Contact::Change Contact::change(std::span<const double> displacement,
         sum[C.rows[e]] += C.values[e] * displacement[C.columns[e]];
     return sum;
   };
-  const std::size_t square = _nodes->is_vector() ? n * g * g : 0;
-  std::vector<double> by_gap(n * size), by_slip(square), by_normal(square);
-  if (not _nodes->is_vector())
-  {
-    std::ranges::fill(by_gap, 1);
-    return {product(by_gap, by_slip, by_normal), {}};
-  }
-  by_gap = _nodes->normal;
+  const std::size_t square = n * g * g;
+  std::vector<double> by_gap = _nodes->normal, by_slip(square),
+                      by_normal(square);
   for (std::size_t i = 0; i < square; i += g * g)
     for (int k = 0; k < g; ++k)
       by_slip[i + k * (g + 1)] = 1;
   // Derivatives by slip and mean normal are chained in place
   const std::vector<double> along = by_slip;
   Change found{product(by_gap, by_slip, by_normal), {}};
-  if (not with_normals)
-    return found;
   found.normal.assign(n * g, 0);
   if (kinematics() == Sliding::small)
     return found;

@@ -250,16 +250,15 @@ public:
   /// @brief What displacements change in first order at slave nodes.
   struct Change
   {
-    /// Gap; with normals, the movement against the master (shape=(n, size))
-    std::vector<double> movement;
-    std::vector<double> normal; ///< normals; none of scalars (shape=(n, gdim))
+    std::vector<double> movement; ///< against the master (shape=(n, gdim))
+    std::vector<double> normal;   ///< normals (shape=(n, gdim))
   };
 
-  /// @brief Find what displacements change in first order.
+  /// @brief Find what displacements change in first order, where multipliers
+  /// are vectors.
   /// @param[in] displacement Displacements of all nodes (shape=(num_nodes,
   /// gdim)).
-  /// @param[in] with_normals Whether normals are asked for, too.
-  Change change(std::span<const double> displacement, bool with_normals) const;
+  Change change(std::span<const double> displacement) const;
 
   /// @brief Tabulate a matrix term pair by pair.
   /// @param[in] term "stiffness", "traction" or "constraint".

@@ -17,6 +17,9 @@ namespace
 /// before it, and no fewer than these. Sheets that are bent and drawn take the
 /// same, within a tenth, for 2 to 5 times and 10 to 32 solves
 constexpr int budget_ratio = 4, least_budget = 32;
+/// Linear solves that an accepted step counts for at least towards a longer
+/// one: extrapolated steps, and those of bodies that nothing presses, take none
+constexpr int least_cost = 4;
 /// Failures in a row from which on a step is not extrapolated: the way turns
 constexpr int plain_failures = 2;
 } // namespace
@@ -65,7 +68,7 @@ void StepPlan::accept(int iterations)
   const double end = next(), part = share();
   _length = end - t();
   _cost = iterations;
-  _debt = std::max(_debt - iterations, 0);
+  _debt = std::max(_debt - std::max(iterations, least_cost), 0);
   const bool grows
       = _easy ? iterations <= *_easy and _failures == 0 : _debt == 0;
   if (grows)

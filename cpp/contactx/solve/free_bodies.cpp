@@ -197,6 +197,14 @@ struct FreeBodies::Neutral
   std::vector<double> size; ///< of the facets around each closed node
 };
 
+struct FreeBodies::Room
+{
+  VectorXd motion;  ///< of all bodies, by their modes
+  double depth = 0; ///< largest penetration before
+  /// Nodes of each contact that are pressed in the end
+  std::vector<std::vector<std::int32_t>> pressed;
+};
+
 /// Motions in rows.
 struct FreeBodies::Loose
 {
@@ -765,41 +773,44 @@ bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
   return closed_any;
 }
 
-/// Closes the nodes that touch where free bodies that nothing pulls yet give
-/// way to what penetrates them, as if they were rigid and each node of theirs a
-/// spring.
+/// Where free bodies go that give way to what penetrates them, as if they were
+/// rigid and each node of theirs a spring.
 ///
 /// Before a body is pressed from both sides nothing but corners between facets
 /// resists its motions along the surface.
-bool FreeBodies::give_way(const std::vector<Rows>& rows,
-                          std::span<const double> pull)
+/// @param[in] is_driven Whether forces act on each body, so that it stays.
+/// @param[in] clearance Gap that they leave.
+FreeBodies::Room FreeBodies::room(const std::vector<Rows>& rows,
+                                  std::span<const std::int8_t> is_driven,
+                                  double clearance) const
 {
   struct Spring
   {
-    std::size_t contact, i;
+    std::size_t contact;
+    std::int32_t slave;
     double gap;
     bool is_tied;
     std::vector<Eigen::Index> where{};
     std::vector<double> row{};
     bool is_pressed = false;
   };
-  std::vector<Spring> springs;
   std::vector<MatrixXd> bases = _modes->free();
-  const int m = _modes->modes_per_body();
   for (std::size_t b = 0; b < bases.size(); ++b)
-    if (math::column(pull.subspan(b * m, m)).norm() > _balanced)
-      bases[b].resize(m, 0);
+    if (is_driven[b] != 0)
+      bases[b].resize(bases[b].rows(), 0);
   const std::vector<Eigen::Index> first = first_columns(bases);
   const Eigen::Index count = first.back();
+  Room room{{}, 0, std::vector<std::vector<std::int32_t>>(rows.size())};
   if (count == 0)
-    return false;
+    return room;
+  std::vector<Spring> springs;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     const bool is_tied = std::isinf(rows[k].contact->friction_max());
     const std::vector<double> gap = rows[k].contact->closable_gap();
     const auto add = [&](const Vector<3>& direction, std::size_t i, double gap)
     {
-      Spring spring{k, i, gap, is_tied};
+      Spring spring{k, rows[k].slaves[i], gap, is_tied};
       rows[k].by_columns(direction, i, bases, first, spring.where, spring.row);
       if (not spring.where.empty())
         springs.push_back(std::move(spring));
@@ -813,7 +824,7 @@ bool FreeBodies::give_way(const std::vector<Rows>& rows,
           add(axis, i, 0);
         }
       else if (std::isfinite(gap[rows[k].slaves[i]]))
-        add(rows[k].normal[i], i, gap[rows[k].slaves[i]]);
+        add(rows[k].normal[i], i, gap[rows[k].slaves[i]] - clearance);
   }
   VectorXd motion = VectorXd::Zero(count);
   bool changes = true;
@@ -826,6 +837,8 @@ bool FreeBodies::give_way(const std::vector<Rows>& rows,
       double depth = -spring.gap;
       for (std::size_t p = 0; p < spring.row.size(); ++p)
         depth -= spring.row[p] * motion[spring.where[p]];
+      if (k == 0 and not spring.is_tied)
+        room.depth = std::max(room.depth, depth);
       const bool is_pressed = spring.is_tied or depth > 0;
       changes = changes or spring.is_pressed != is_pressed;
       spring.is_pressed = is_pressed;
@@ -846,24 +859,78 @@ bool FreeBodies::give_way(const std::vector<Rows>& rows,
     gram.diagonal().array() += corner_resistance * most;
     motion = gram.leftCols(count).ldlt().solve(gram.col(count));
   }
-  std::vector<std::vector<std::int32_t>> which(rows.size());
+  room.depth = mesh::largest(ranks(), room.depth);
+  room.motion = by_body(bases) * motion;
   for (const Spring& spring : springs)
-  {
-    const Rows& some = rows[spring.contact];
-    const std::int32_t slave = some.slaves[spring.i];
-    if (spring.is_pressed and not spring.is_tied
-        and some.contact->status()[slave] == law::open)
-      which[spring.contact].push_back(slave);
-  }
+    if (spring.is_pressed and not spring.is_tied)
+      room.pressed[spring.contact].push_back(spring.slave);
+  return room;
+}
+
+/// Closes the nodes that are pressed where free bodies that nothing pulls yet
+/// give way.
+bool FreeBodies::give_way(const std::vector<Rows>& rows,
+                          std::span<const double> pull)
+{
+  Room room = this->room(rows, driven(pull), 0);
   std::int64_t closed = 0;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
-    rows[k].contact->close(which[k]);
-    closed += std::ssize(which[k]);
+    const std::vector<std::int8_t> status = rows[k].contact->status();
+    std::erase_if(room.pressed[k], [&](std::int32_t slave)
+                  { return status[slave] != law::open; });
+    rows[k].contact->close(room.pressed[k]);
+    closed += std::ssize(room.pressed[k]);
   }
   closed = mesh::total(ranks(), closed);
   _closed_for_balance += closed;
   return closed > 0;
+}
+
+/// Bodies that a force acts on.
+/// @param[in] pull Forces along the modes of the bodies.
+std::vector<std::int8_t> FreeBodies::driven(std::span<const double> pull) const
+{
+  const int m = _modes->modes_per_body();
+  std::vector<std::int8_t> is_driven;
+  for (std::size_t b = 0; b < _modes->count(); ++b)
+    is_driven.push_back(math::column(pull.subspan(b * m, m)).norm()
+                        > _balanced);
+  return is_driven;
+}
+
+std::optional<FreeBodies::Way> FreeBodies::way_out(const Forces& forces,
+                                                   bool is_first)
+{
+  if (not _modes or not _modes->any_free())
+    return std::nullopt;
+  const std::span<const double> x = positions();
+  const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
+  const auto body = _modes->body();
+  const std::vector<double> all = forces.residual(), bulk = forces.of_bulk();
+  _balanced = balance_rel_tol * forces.scale();
+  std::vector<std::int8_t> is_driven = driven(along(x, all, -1));
+  // Others are pressed from more than one side
+  std::vector<double> pressed(_modes->count());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    pressed[body[i / g]] += (all[i] - bulk[i]) * (all[i] - bulk[i]);
+  if (ranks().size() > 1)
+    ranks().reduce(std::span(pressed), Reduction::sum);
+  for (std::size_t b = 0; b < pressed.size(); ++b)
+    if (std::sqrt(pressed[b]) > _balanced)
+      is_driven[b] = 1;
+  const double size = math::equal_rel_tol * _modes->size();
+  const Room room = this->room(rows(x), is_driven, is_first ? 0 : 2 * size);
+  if (not(room.depth > size))
+    return std::nullopt;
+  Way way{room.depth, std::vector<double>(all.size())};
+  // Linear strains take rotations that are linear in the reference for rigid
+  const bool is_linear = _bulk->is_linear();
+  for (std::size_t i = 0; i < all.size() / g; ++i)
+    _modes->move(static_cast<std::int32_t>(i),
+                 is_linear ? _bulk->reference() : x, &room.motion[body[i] * m],
+                 not is_linear, &way.by[g * i]);
+  return way;
 }
 
 /// Orthonormal basis of the motions that no closed node resists, and behind

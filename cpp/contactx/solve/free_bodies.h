@@ -154,6 +154,21 @@ public:
   /// @return Whether nodes have been closed or stick on any rank.
   bool stabilise(const Forces& forces);
 
+  /// @brief Rigid motions of free bodies, and how deep what makes them go has
+  /// been.
+  struct Way
+  {
+    double depth;           ///< largest penetration, length
+    std::vector<double> by; ///< displacements (shape=(num_owned, gdim))
+  };
+
+  /// @brief Find where free bodies that no force acts on give way to what
+  /// penetrates them, by search and gaps of now; nothing is closed. Collective.
+  /// @param[in] forces Forces at the iterate.
+  /// @return Where they go to in first order; nothing if nothing penetrates
+  /// them.
+  std::optional<Way> way_out(const Forces& forces, bool is_first);
+
   /// @brief Movement of the bodies along their free modes since the last
   /// call of `stabilise`.
   ///
@@ -231,6 +246,8 @@ private:
   struct Field;
   /// Motions that nothing but corners between facets resists
   struct Neutral;
+  /// Where free bodies give way to what penetrates them
+  struct Room;
   /// Free motions at owned dofs, and the displacements at which they were found
   struct Loose;
   /// Nodes of a contact that may balance a body, and the time in which the
@@ -273,6 +290,9 @@ private:
                     std::span<const double> x, std::span<const double> pull,
                     std::span<const double> forces,
                     std::span<const double> of_bulk);
+  Room room(const std::vector<Rows>& rows,
+            std::span<const std::int8_t> is_driven, double clearance) const;
+  std::vector<std::int8_t> driven(std::span<const double> pull) const;
   bool give_way(const std::vector<Rows>& rows, std::span<const double> pull);
 
   std::shared_ptr<const mesh::Bodies> _bodies;

@@ -82,6 +82,27 @@ ConeVector joined(double scalar, const std::vector<double>& vectors,
   return v;
 }
 
+/// How far slave nodes move past their masters: along the normal where there is
+/// no friction, else any way.
+std::vector<double> passed(const contact::Contact& contact,
+                           std::span<const double> u)
+{
+  const kernel::Weights weights = contact.master()->weights();
+  const std::vector<double> normals = contact.master()->normals();
+  const int g = contact.nodes()->gdim();
+  std::vector<Eigen::Vector3d> sums(contact.nodes()->status.size(),
+                                    Eigen::Vector3d::Zero());
+  for (std::size_t e = 0; e < weights.values.size(); ++e)
+    sums[weights.slaves[e]].head(g)
+        += weights.values[e] * Map(&u[g * weights.nodes[e]], g);
+  std::vector<double> lengths(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    lengths[i] = contact.nodes()->is_vector()
+                     ? sums[i].norm()
+                     : std::abs(sums[i].dot(Map(&normals[3 * i], 3)));
+  return lengths;
+}
+
 /// Changes of (b, t) and of (gamma, w) of a node by a step.
 template <class Step>
 std::pair<ConeVector, ConeVector> of_cones(const Interior& in, const Step& step,
@@ -164,14 +185,10 @@ void InteriorPoint::note(std::span<const double> dx)
   {
     const law::NodeState& nodes = *c->nodes();
     const int size = nodes.size();
-    const auto change = c->change(u, false);
+    const std::vector<double> change = passed(*c, u);
     for (std::size_t i = 0; i < nodes.status.size(); ++i, at += size)
     {
-      double movement = 0;
-      for (int k = 0; k < size; ++k)
-        movement
-            += change.movement[size * i + k] * change.movement[size * i + k];
-      farthest = std::max(farthest, std::sqrt(movement));
+      farthest = std::max(farthest, change[i]);
       if (not nodes.closed(i) or c->law()->is_tied())
         continue;
       double dp = 0;
@@ -447,7 +464,7 @@ InteriorPoint::increments(std::span<const double> dx) const
     step.slip_length.assign(n, 0);
     contact::Contact::Change change;
     if (nodes.is_vector())
-      change = c->change(u, true);
+      change = c->change(u);
     for (std::size_t i = 0; i < n; ++i, at += size)
     {
       if (not in->is_on[i])

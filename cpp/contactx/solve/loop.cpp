@@ -18,6 +18,10 @@ namespace
 /// 1e-4
 constexpr double rotation_max = 0.014;
 
+/// Penetration after bodies have moved, over that before, from which on rigid
+/// ones go no farther
+constexpr double room_ratio = 0.5;
+
 std::vector<std::shared_ptr<FreeBodyContact>>
 holdings(const System::Contacts& contacts)
 {
@@ -107,8 +111,43 @@ void Loop::set_factors(std::span<const double> stiffness)
   _system->take_factors();
 }
 
+/// Moves free bodies that carry no force out of what penetrates them before the
+/// first iterate, as far as rigid ones go: nothing resists them, so that no
+/// linear system tells where.
+void Loop::make_room()
+{
+  _has_made_room = false;
+  double depth = std::numeric_limits<double>::infinity();
+  std::vector<double> before;
+  while (true)
+  {
+    _active_set.pair();
+    const auto way = _bodies->way_out(_forces, before.empty());
+    if (not way)
+    {
+      _has_made_room = not before.empty();
+      return;
+    }
+    const std::span<const double> now = _system->bulk()->displacements();
+    if (not(way->depth < room_ratio * depth))
+    {
+      // What is packed deforms from where it is
+      _system->bulk()->set_displacements(before);
+      return;
+    }
+    _has_made_room = not before.empty();
+    depth = way->depth;
+    before.assign(now.begin(), now.end());
+    std::vector<double> u = before;
+    for (std::size_t i = 0; i < u.size(); ++i)
+      u[i] += way->by[i];
+    _system->bulk()->set_displacements(u);
+  }
+}
+
 void Loop::settle_first()
 {
+  make_room();
   update_active_set(true);
   // For callers that ask for the Jacobian before the residual: freezing the
   // kinematics has changed the pairs
@@ -165,7 +204,7 @@ void Loop::predict(std::span<const double> increment)
   const bool may_pass = std::ranges::any_of(
       _system->contacts(), [](const auto& contact)
       { return contact->integrates() and not contact->master()->is_rigid(); });
-  if (not is_curved() or may_pass)
+  if (not is_curved() or may_pass or _has_made_room)
     return;
   std::vector<double> start(_system->size());
   _system->unknowns(start);

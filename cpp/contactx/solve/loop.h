@@ -193,6 +193,7 @@ public:
   void leave_path() { _path.drop(); }
 
 private:
+  void make_room();
   void update_active_set(bool is_first);
   void foresee(std::span<const double> dx);
   void look_ahead();
@@ -217,7 +218,7 @@ private:
   BalanceGuard _balance;
   Iterate _iterate;
   std::int64_t _version = 0;
-  bool _has_stepped = false, _is_homogeneous = false;
+  bool _has_stepped = false, _is_homogeneous = false, _has_made_room = false;
   // Displacements at the step's start
   std::vector<double> _start;
   // Where the first Newton step would lead in full

@@ -89,6 +89,16 @@ public:
   /// @param[out] modes Displacements (shape=(gdim, m)).
   void at(std::int32_t node, std::span<const double> x, double* modes) const;
 
+  /// @brief Displacement of a node by a rigid motion of its body.
+  /// @param[in] node The node.
+  /// @param[in] x Positions of all nodes (shape=(num_nodes, gdim)).
+  /// @param[in] motion How much of each mode (shape=(m)).
+  /// @param[in] is_exact Whether distances stay as they are, not in first order
+  /// only.
+  /// @param[out] by Displacement (shape=(gdim)).
+  void move(std::int32_t node, std::span<const double> x, const double* motion,
+            bool is_exact, double* by) const;
+
 private:
   struct Resistance;
 

@@ -175,6 +175,19 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughAndHaveAPair)
   EXPECT_EQ(audit.find(start).passed.count, 0);
 }
 
+TEST_P(AuditOfSurfaces, FacetsThatBecomeLongAllowNoMore)
+{
+  // As those of leaves that have flown past each other
+  const TwoSheets s = sheets(0.1);
+  MovedContact c(s, 0.05, Sliding::finite);
+  SurfacesAudit audit(c.halo, c.contact);
+  audit.accept();
+  const auto start = c.halo->now()->x;
+  c.move(0, s.num_slaves, -0.3);
+  c.move(s.num_nodes() - 1, s.num_nodes(), -50);
+  EXPECT_GT(audit.find(start).passed.count, 0);
+}
+
 TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
 {
   const double height = 0.28, depth = 0.02, h = facet_size();

@@ -587,6 +587,36 @@ TEST(FreeBodies, ABodyThatIsPenetratedGivesWayToTheNextOne)
   }
 }
 
+TEST(FreeBodies, BodiesThatNoForceActsOnGetOutOfWhatPenetratesThem)
+{
+  for (const int g : {2, 3})
+  {
+    Block block(g, 0.3, 0.02, -0.05);
+    FreeBodies free = block.scene.begun();
+    const auto way = free.way_out(block.loads(std::vector<double>(g)), true);
+    ASSERT_TRUE(way);
+    EXPECT_DOUBLE_EQ(way->depth, 0.05);
+    // The gap grows by 0.02 along x, so that it turns; nothing is closed
+    for (std::size_t i = 0; i < block.slaves.size(); ++i)
+    {
+      const double x = block.scene.truss.x[block.slaves[i] * g];
+      EXPECT_NEAR(way->by[block.slaves[i] * g + g - 1], 0.05 - 0.02 * x, 2e-4);
+      EXPECT_EQ(block.floor->kind[i], law::open);
+    }
+    // A force on it is for contact to balance
+    EXPECT_FALSE(free.way_out(block.loads(down(g)), true));
+  }
+  // What only touches stays
+  Block resting(2, 0, 0, 0);
+  FreeBodies free = resting.scene.begun();
+  EXPECT_FALSE(free.way_out(resting.loads({0, 0}), true));
+  // and once bodies go they leave a gap
+  const auto way = free.way_out(resting.loads({0, 0}), false);
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->by[1], way->depth, 1e-3 * way->depth);
+  EXPECT_LT(way->depth, 1e-8);
+}
+
 TEST(FreeBodies, WhereAllIsLinearMotionsAreAboutTheReference)
 {
   // Turned by a right angle, a block rolls off its nodes as they are now

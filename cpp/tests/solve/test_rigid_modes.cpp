@@ -71,6 +71,49 @@ std::size_t num_free(FreeScene& scene)
   return modes.free()[0].cols();
 }
 
+TEST(RigidModes, ExactMotionsKeepDistancesAndLinearOnesAreTheirDerivative)
+{
+  for (const int g : {2, 3})
+  {
+    FreeScene scene = block(g);
+    const auto x = scene.bulk->reference();
+    const RigidModes modes(scene.bodies, *scene.bulk, x);
+    const std::size_t m = modes.modes_per_body();
+    const std::array<double, 6> all{0.3, -0.2, 0.7, 0.5, 0.1, -0.4};
+    std::vector<double> at(g * m);
+    const auto moved = [&](std::int32_t node, double part, bool is_exact)
+    {
+      std::array<double, 6> motion = all;
+      for (double& value : motion)
+        value *= part;
+      std::vector<double> by(g);
+      modes.move(node, x, motion.data(), is_exact, by.data());
+      return by;
+    };
+    const std::vector<double> first = moved(0, 1, true);
+    for (std::int32_t i = 1; i < scene.truss.num_nodes(); ++i)
+    {
+      const std::vector<double> by = moved(i, 1, true),
+                                little = moved(i, 1e-6, true),
+                                linear = moved(i, 1, false);
+      modes.at(i, x, at.data());
+      double before = 0, after = 0;
+      for (int k = 0; k < g; ++k)
+      {
+        const double apart = x[i * g + k] - x[k];
+        before += apart * apart;
+        after += std::pow(apart + by[k] - first[k], 2);
+        double sum = 0;
+        for (std::size_t p = 0; p < m; ++p)
+          sum += at[k * m + p] * all[p];
+        EXPECT_NEAR(linear[k], sum, 1e-14);
+        EXPECT_NEAR(little[k], 1e-6 * sum, 1e-11);
+      }
+      EXPECT_NEAR(after, before, 1e-13);
+    }
+  }
+}
+
 TEST(RigidModes, TranslationsThenRotations)
 {
   const std::array<double, 3> d{2, 3, 5};

@@ -18,7 +18,7 @@ from scenes.blocks import Blocks
 from scenes.coupled import Coupled
 from scenes.materials import neo_hookean
 from scenes.problems import direct_solver
-from story import METHODS
+from story import METHODS, traction
 
 
 def make(cell=CellType.triangle, **options):
@@ -233,11 +233,13 @@ def test_a_snes_that_fails_takes_nothing_along():
 
 
 def make_forms(cell=CellType.hexahedron, *, is_free=False, **options):
-    """The upper block on the lower one, and on a floor; it may be free."""
+    """The upper block on the lower one, and on a floor; it may be free, under a load."""
     scene = Blocks(cell, gap=0.02)
     gdim = scene.u.function_space.mesh.geometry.dim
     if is_free:
         del scene.bcs[gdim:]
+        down = fem.Constant(scene.u.function_space.mesh, -0.01 * np.eye(gdim)[-1])
+        scene.F += traction(scene.u, scene.tags, Tag.UPPER_TOP, down)
     # Nothing holds a free one along the surface
     friction = 0.0 if is_free else 0.3
     contacts = [scene.contact(friction=friction, offset=0.05, **options)]
