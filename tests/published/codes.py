@@ -11,6 +11,7 @@ from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import brentq
 
 import contactx as cx
 import ufl
@@ -20,7 +21,7 @@ from dolfinx.mesh import CellType
 import meshes
 import story
 from meshes import Tag
-from published.drawing import deformed, surface
+from published.drawing import curve, deformed, surface
 from published.record import Answer, Case, solve, steps
 from scenes.grids import faces
 from scenes.materials import of_bodies, st_venant_kirchhoff
@@ -200,6 +201,42 @@ def four_c() -> Answer:
     return Answer(value, iterations, drawn)
 
 
+def membrane(n: int = 24) -> Answer:
+    """A membrane over a ball, whose rim is given: Bueler's obstacle problem, a quarter of it.
+
+    A sheet of one layer of cells, whose nodes move up and down alone and whose stress is the slope.
+    It lies on the ball of radius 1 as far as r = a, and is -A log(r) + B beyond.
+    """
+    a = brentq(lambda a: a**2 * math.log(2 / a) - (1 - a**2), 0.5, 0.9)
+    A = a**2 / math.sqrt(1 - a**2)
+    domain = mesh.create_box(
+        MPI.COMM_WORLD, [[0, 0, 1], [2, 2, 1 + 2 / n]], [n, n, 1], CellType.hexahedron
+    )
+    u = story.displacement(domain)
+    V = u.function_space
+    tags = faces(domain, ((2, 1.0), (0, 2.0), (1, 2.0)))
+
+    def height(r: np.ndarray) -> np.ndarray:
+        outside = A * np.log(2 / np.maximum(r, a))
+        return np.where(r < a, np.sqrt(1 - np.minimum(r, a) ** 2), outside)
+
+    rim = fem.Function(V)
+    rim.interpolate(lambda x: np.stack([0 * x[0], 0 * x[0], height(np.hypot(*x[:2])) - 1]))
+    edge = fem.locate_dofs_topological(V, 2, np.hstack([tags.find(2), tags.find(3)]))
+    bcs = [fem.dirichletbc(rim, edge)]
+    for sub in (V.sub(0), V.sub(1)):
+        every = fem.locate_dofs_geometrical((sub, sub.collapse()[0]), lambda x: x[0] > -1)
+        bcs.append(fem.dirichletbc(fem.Function(sub.collapse()[0]), every, sub))
+    F = n / 2 * ufl.inner(ufl.grad(u), ufl.grad(ufl.TestFunction(V))) * ufl.dx
+    contact = cx.Contact(cx.Surface(tags, 1), cx.Sphere((0.0, 0.0, 0.0), 1.0))
+    problem = make_problem(F, u, [contact], bcs)
+    iterations = solve(problem)
+    slaves = contact.slave_nodes
+    r = np.hypot(*V.tabulate_dof_coordinates()[slaves, :2].T)
+    drawn = curve(r, 1 + u.x.array[3 * slaves + 2], ("r", "height"), height, 2.0)
+    return Answer(4 * float(contact.force[2]), iterations, drawn, 2 * math.pi * A)
+
+
 _THESIS = "S. Hueeber, thesis, Stuttgart 2008"
 CASES: list[Case] = [
     *(
@@ -261,5 +298,13 @@ CASES: list[Case] = [
         "refuses: the slave is one facet of four nodes over a hundred.",
         published=-0.00372699924569964806,
         options="surface-to-surface",
+    ),
+    Case(
+        "membrane",
+        "Membrane over a ball",
+        "PETSc, src/snes/tutorials/ex9.c; E. Bueler, PETSc for Partial Differential Equations, "
+        "SIAM 2021, chapter 12",
+        "force on the ball over the tension, 2 pi A",
+        membrane,
     ),
 ]

@@ -18,9 +18,11 @@ from mpi4py import MPI
 
 import hertz_axisymmetric
 import numpy as np
+from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
+import basix.ufl
 import contactx as cx
 import ufl
 from dolfinx import fem, mesh
@@ -30,6 +32,7 @@ from meshes.grids import graded
 from published.drawing import curve, surface
 from published.record import Answer, Case, solve, steps
 from scenes.grids import tagged
+from scenes.materials import axisymmetric_strain
 from scenes.problems import make_problem
 
 E, NU = 1.0, 0.3
@@ -72,6 +75,7 @@ class HalfSpace:
         symmetric: tuple[int, ...] = (0,),
         sides: bool = False,
         rubbed: bool = False,
+        law: Callable[[fem.Function], ufl.Form] | None = None,
         **options: Any,
     ):
         """Create the problem.
@@ -85,6 +89,7 @@ class HalfSpace:
             symmetric: Axes whose first coordinate is a plane of symmetry.
             sides: Whether the far side along the first axis is one, too.
             rubbed: Whether there may be friction, none at first.
+            law: Residual of the half-space; elastic if None.
             options: Options of the contact.
         """
         gdim = len(grid)
@@ -127,8 +132,8 @@ class HalfSpace:
             )
         )
         tags = tagged(domain, top)
-        law = hertz_axisymmetric.elasticity if axisymmetric else story.elasticity
-        F = law(u, E, NU)
+        elastic = hertz_axisymmetric.elasticity if axisymmetric else story.elasticity
+        F = elastic(u, E, NU) if law is None else law(u)
         if axisymmetric:
             options["weight"] = 2 * ufl.pi * ufl.SpatialCoordinate(domain)[0]
         self.friction = fem.Constant(domain, 0.0)
@@ -394,6 +399,119 @@ def mindlin_3d_force() -> Answer:
     return Answer(2 * float(contact.force[0]), iterations, drawn, expected)
 
 
+def twisted() -> Answer:
+    """A rigid sphere, pressed without friction, then turned about the normal with it: the torque.
+
+    Lubkin's shear is mu p beyond r = c; inside it is a sum of those of flat punches that stick, of
+    radii s from c to the contact's radius a. They turn by dt = -mu p0/(2 G a) dI(s), where I(s) is
+    the integral of sqrt((a^2 - r^2)/(r^2 - s^2)) over r from s to a; their torques are
+    16/3 G s^3 dt.
+    """
+    radius, depth = _SPHERE
+    guess = math.sqrt(radius * depth)
+    half = lines(1.25 * guess, guess / 4, 15 * guess, 2.0)
+    full = np.concatenate([-half[:0:-1], half])
+    angle: list[fem.Constant] = []
+
+    def ball(place: fem.Constant) -> cx.Sphere:
+        angle.append(fem.Constant(place.ufl_domain(), (0.0, 0.0, 0.0)))
+        return cx.Sphere(place, radius, angle=angle[0])
+
+    grid = [full, full, lines(guess / 2, guess / 4, 15 * guess, 2.0)]
+    scene = HalfSpace(grid, ball, start=radius, symmetric=(), rubbed=True)
+    scene.place.value[2] = radius - depth
+    iterations = solve(scene.problem)
+    scene.friction.value = _RUBS
+    a = _radius(scene.force)
+    shear = E / (2 * (1 + NU))
+    limit = 3 * _RUBS * scene.force / (4 * math.pi * a**3 * shear)
+
+    def turn(s: float) -> float:
+        def slope(f: float) -> float:
+            return math.sin(f) ** 2 / math.sqrt(s**2 + (a**2 - s**2) * math.cos(f) ** 2)
+
+        return limit * (a**2 - s**2) * float(quad(slope, 0, math.pi / 2)[0])
+
+    c = a / 2
+
+    def update(t: float) -> None:
+        angle[0].value[2] = t * turn(c)
+
+    iterations.extend(steps(scene.problem, 2, update))
+    torque = float(scene.contact.moment(np.zeros(3))[2])
+    # In parts
+    exact = 16 / 3 * shear * (c**3 * turn(c) + 3 * quad(lambda s: s**2 * turn(s), c, a)[0])
+    status = scene.contact.status.x.array[scene.contact.slave_nodes]
+    drawn = surface(scene.x, status, "0 open, 1 stick, 2 slip", 1.3 * a)
+    return Answer(torque, iterations, drawn, exact)
+
+
+def relaxing() -> Answer:
+    """A ball goes down on a viscoelastic half-space in the time 1, then stays: the force after 3.
+
+    Lee and Radok: as long as the contact grows, the force is the elastic one, 4/3 E* sqrt(R d^3),
+    summed over the path with the relaxing modulus. Strain of the one Maxwell element is kept.
+    """
+    radius, depth, lasting, last = 100.0, 0.01, 0.3, 3.0
+    history: list[fem.Function] = []
+    added: list[fem.Expression] = []
+    factors: list[fem.Constant] = []
+
+    def law(u: fem.Function) -> ufl.Form:
+        domain = u.function_space.mesh
+        element = basix.ufl.quadrature_element(domain.basix_cell(), value_shape=(3, 3), degree=2)
+        Q = fem.functionspace(domain, element)
+        history.extend(fem.Function(Q) for _ in range(2))
+        factors.extend(fem.Constant(domain, 1.0) for _ in range(2))
+        strain, test = (axisymmetric_strain(w) for w in (u, ufl.TestFunction(u.function_space)))
+        old, viscous = history
+        new = factors[0] * viscous + factors[1] * (strain - old)
+        added.extend(
+            fem.Expression(value, Q.element.interpolation_points) for value in (strain, new)
+        )
+        felt = lasting * strain + (1 - lasting) * new
+        lateral = NU / (1 - 2 * NU) * ufl.tr(felt) * ufl.Identity(3)
+        dx = ufl.dx(metadata={"quadrature_degree": 2, "quadrature_scheme": "default"})
+        r = ufl.SpatialCoordinate(domain)[0]
+        return E / (1 + NU) * ufl.inner(felt + lateral, test) * 2 * ufl.pi * r * dx
+
+    scene = HalfSpace(
+        _section(1.25, 0.05),
+        lambda place: cx.Sphere(place, radius),
+        start=radius,
+        axisymmetric=True,
+        law=law,
+    )
+    times, forces, iterations = [0.0], [0.0], []
+
+    def update(t: float) -> None:
+        dt = t - times[-1]
+        factors[0].value, factors[1].value = math.exp(-dt), (1 - math.exp(-dt)) / dt
+        scene.place.value[1] = radius - depth * min(t, 1)
+
+    options: dict[str, Any] = {"history": history, "t_end": last, "progress": False}
+    for step in cx.LoadSteps(scene.problem, 30, update=update, **options):
+        values = []
+        for function, expression in zip(history, added, strict=True):
+            new = fem.Function(function.function_space)
+            new.interpolate(expression)
+            values.append(new.x.array)
+        for function, value in zip(history, values, strict=True):
+            function.x.array[:] = value
+        iterations.append(step.iterations)
+        times.append(step.t)
+        forces.append(scene.force)
+
+    def exact(t: float) -> float:
+        def rate(s: float) -> float:
+            return 1.5 * math.sqrt(s) * (lasting + (1 - lasting) * math.exp(s - t))
+
+        return float(4 / 3 * MODULUS * math.sqrt(radius * depth**3) * quad(rate, 0, min(t, 1))[0])
+
+    drawn = curve(times, forces, ("time", "force / E"), np.vectorize(exact))
+    return Answer(forces[-1], iterations, drawn, exact(last))
+
+
 CASES = [
     Case(
         "flat_punch",
@@ -481,5 +599,21 @@ CASES = [
         "computed, took its place; both count here.",
         problem="mindlin_sphere",
         slow=True,
+    ),
+    Case(
+        "lubkin",
+        "A sphere turned about the normal, friction 0.2",
+        "J. L. Lubkin, J. Appl. Mech. 18, 1951, 183-187",
+        "torque by the turn",
+        twisted,
+        slow=True,
+    ),
+    Case(
+        "lee_radok",
+        "Ball pressed into a viscoelastic half-space, then held",
+        "E. H. Lee and J. R. M. Radok, J. Appl. Mech. 27, 1960, 438-444; as M. V. Ramesh Kumar and "
+        "R. Narasimhan, Current Science 87, 2004",
+        "force after three times of relaxation",
+        relaxing,
     ),
 ]

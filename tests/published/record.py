@@ -14,7 +14,7 @@ import contactx as cx
 TOLERANCE = 0.03
 # Where published values come from
 TEXTBOOKS, NAFEMS, CODES = "textbooks and papers", "NAFEMS R0094", "tests of other codes"
-_TESTED = ("Code_Aster", "CalculiX", "4C", "MOOSE")
+_TESTED = ("Code_Aster", "CalculiX", "4C", "MOOSE", "PETSc")
 
 
 @dataclass

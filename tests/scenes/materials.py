@@ -62,6 +62,12 @@ def st_venant_kirchhoff(
     return ufl.derivative(density * _measure(degree), u)
 
 
+def axisymmetric_strain(w: Any) -> Any:
+    """Strain of a displacement (u_r, u_z) about the axis r = 0, a tensor in space."""
+    e, r = ufl.sym(ufl.grad(w)), ufl.SpatialCoordinate(w.ufl_function_space().mesh)[0]
+    return ufl.as_tensor([[e[0, 0], e[0, 1], 0], [e[1, 0], e[1, 1], 0], [0, 0, w[0] / r]])
+
+
 def _measure(degree: int | None) -> ufl.Measure:
     return ufl.dx if degree is None else ufl.dx(metadata={"quadrature_degree": degree})
 
