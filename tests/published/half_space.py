@@ -441,8 +441,9 @@ def twisted() -> Answer:
     torque = float(scene.contact.moment(np.zeros(3))[2])
     # In parts
     exact = 16 / 3 * shear * (c**3 * turn(c) + 3 * quad(lambda s: s**2 * turn(s), c, a)[0])
-    status = scene.contact.status.x.array[scene.contact.slave_nodes]
-    drawn = surface(scene.x, status, "0 open, 1 stick, 2 slip", 1.3 * a)
+    traction = scene.contact.traction.x.array.reshape(-1, 3)[scene.contact.slave_nodes, :2]
+    r = np.linalg.norm(scene.x[:, :2], axis=1)
+    drawn = curve(r, np.linalg.norm(traction, axis=1), ("r", "shear / E"), None, 1.3 * a)
     return Answer(torque, iterations, drawn, exact)
 
 

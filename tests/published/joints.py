@@ -22,6 +22,7 @@ from dolfinx import fem
 import story
 from meshes import Tag
 from meshes.build import build_mesh
+from meshes.outline import POINT_SIZES
 from published.drawing import curve, deformed
 from published.record import Answer, Case, steps
 from scenes.grids import create, faces, grid
@@ -138,7 +139,7 @@ def _pulled() -> tuple[fem.Function, list[int], tuple[float, float]]:
         Displacement, linear solves of the steps, and the normal force of a flank over half of the
         pull, at its largest and at the end.
     """
-    data = build_mesh("blade", 2, _root, MPI.COMM_WORLD)
+    data = build_mesh("blade", 2, _root, MPI.COMM_WORLD, POINT_SIZES)
     tags = data.facet_tags
     u = story.displacement(data.mesh)
     pull = fem.Constant(data.mesh, (0.0, 0.0))

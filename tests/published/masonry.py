@@ -100,7 +100,7 @@ def arch() -> Answer:
 
     iterations += steps(problem, 3, update)
     thrust = float(contacts[-1].force[0])
-    return Answer(thrust, iterations, deformed(u, scale=50), least_thrust())
+    return Answer(thrust, iterations, deformed(u, scale=10), least_thrust())
 
 
 CASES = [
