@@ -3,11 +3,14 @@
 
 #include "bindings.h"
 #include <contactx/results/results.h>
+#include <contactx/results/wetted.h>
+#include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::Vector;
 using contactx::contact::Contact;
+using contactx::mesh::Halo;
 using contactx::results::Results;
 using contactx::results::Totals;
 
@@ -81,4 +84,18 @@ void contactx_bindings::results(py::module_& m)
       .def(
           "across", [](const Results& self, const Array<double>& field)
           { return array(self.across(view(field))); }, py::arg("field"));
+  m.def(
+      "wetted_nodes",
+      [](const std::shared_ptr<Halo>& halo, const Array<std::int32_t>& offsets,
+         const Array<std::int32_t>& nodes, const Array<std::int8_t>& is_entry,
+         const std::vector<std::shared_ptr<Contact>>& contacts)
+      {
+        const std::vector<std::shared_ptr<const Contact>> all(contacts.begin(),
+                                                              contacts.end());
+        return array(contactx::results::wetted_nodes(
+            halo, {view(offsets), view(nodes)}, view(is_entry), all));
+      },
+      py::arg("halo"), py::arg("offsets"), py::arg("nodes"),
+      py::arg("is_entry"), py::arg("contacts"),
+      "Nodes that a fluid wets, up to closed contacts");
 }

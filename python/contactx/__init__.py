@@ -20,6 +20,7 @@ from contactx.forms import Forms
 from contactx.laws import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import CSVOutput, VTKOutput
+from contactx.penetration import FluidPenetration
 from contactx.problem import ContactProblem
 from contactx.report import Report
 from contactx.steps import LoadSteps
@@ -34,6 +35,7 @@ __all__ = [
     "ContactProblem",
     "ConvergenceError",
     "Cylinder",
+    "FluidPenetration",
     "Forms",
     "FrictionLaw",
     "LevelSet",
