@@ -922,6 +922,13 @@ def step_log_line(
     failure: str,
 ) -> str: ...
 def terms(law: str, sliding: str, num_nodes: Int, gdim: Int, num_slaves: Int = 1) -> list: ...
+def wetted_nodes(
+    halo: Halo,
+    offsets: ArrayLike,
+    nodes: ArrayLike,
+    is_entry: ArrayLike,
+    contacts: Sequence[Contact],
+) -> NDArray[np.int8]: ...
 
 OPEN: int = 0
 SLIP: int = 2

@@ -43,7 +43,8 @@ ONE_METHOD |= {"dam_face": "surface", "dam_face_in_increments": "surface"}
 # What they are for is in that one alone, or the same in both
 ONE_METHOD |= {"tip_on_arm": "surface", "chords": "surface", "edge": "node"}
 # What tests/fast runs on two ranks: friction, free bodies, ties, nodes in several
-# contacts, dragging over the parts of ranks, an obstacle, inertia, self-contact, both solvers
+# contacts, dragging over the parts of ranks, an obstacle, inertia, self-contact, both solvers,
+# a fluid
 QUICK = (
     ("friction_condensed", "node"),
     ("floating_3d", "surface"),
@@ -54,6 +55,7 @@ QUICK = (
     ("plane", "node"),
     ("flying_2d", "surface"),
     ("clip", "node"),
+    ("penetrated", "node"),
 )
 
 

@@ -12,6 +12,7 @@ import rigid_cylinder
 import stacked_blocks
 
 import contactx as cx
+import ufl
 from contactx.obstacles import Obstacle
 from dolfinx import fem
 from dolfinx.mesh import CellType
@@ -190,3 +191,27 @@ def loose_discs() -> Iterator[cx.ContactProblem]:
         balls.push(depth)
         balls.problem.solve()
         yield balls.problem
+
+
+def penetrated() -> Iterator[cx.ContactProblem]:
+    """A fluid goes round a block on a slab, and under it where the block is tilted."""
+    scene = Blocks(CellType.tetrahedron, n_upper=3, n_lower=5)
+    contact = scene.contact(friction=0.3)
+    domain, faces = scene.u.function_space.mesh, (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)
+    fluid = cx.FluidPenetration(
+        domain,
+        cx.Surface(scene.tags, *faces),
+        entry=lambda x: np.isclose(x[0], 0.0) | np.isclose(x[0], 0.23),
+        contacts=[contact],
+    )
+    ds = ufl.Measure("ds", domain, subdomain_data=scene.tags)
+    v, N = ufl.TestFunction(scene.u.function_space), ufl.FacetNormal(domain)
+    p = fem.Constant(domain, 0.0)
+    load = 0.05 + 0.16 * (ufl.SpatialCoordinate(domain)[0] - 0.73)
+    F = scene.F + load * v[2] * ds(int(Tag.UPPER_TOP)) + p * fluid.wet * ufl.dot(v, N) * ds(faces)
+    problem = make_problem(F, scene.u, [contact], scene.bcs[:3])
+    for p.value in (0.0, 0.02):
+        problem.solve()
+        while fluid.update():
+            problem.solve()
+        yield problem
