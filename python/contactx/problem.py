@@ -210,6 +210,34 @@ class ContactProblem:
                 raise error from error.__cause__
         return self.u
 
+    def blocks(self) -> dict[str, PETSc.Mat]:
+        """Jacobian of the state that the last solve has found, in blocks [[K, B], [C, D]].
+
+        For eigenvalues, stability and sensitivities about that state, which stays as it is. Rows
+        and columns of "K" are the displacements, or all that is solved for, as DOLFINx has them,
+        with ones on the diagonal of Dirichlet rows; those of the multipliers follow, see
+        ``ContactAssembler.blocks``. All ranks must take part.
+
+        Returns:
+            The four blocks by their names.
+
+        Raises:
+            RuntimeError: If the state is no solution for the loads and Dirichlet values of now.
+        """
+        assembler, report = self.assembler, self.assembler.report
+        rtol, atol, _, max_it = self.solver.getTolerances()
+        try:
+            assembler.begin_step()
+            if not assembler.settle(rtol, atol, max_it).converged:
+                raise RuntimeError(
+                    "blocks() was called for loads that were not solved for: call solve() first"
+                )
+            return assembler.blocks()
+        finally:
+            assembler.restore()
+            self._newton.reset()
+            assembler.report = report
+
     def set_attempt(self, attempt: core.Attempt) -> None:
         """Take what the next solve is an attempt at; LoadSteps calls this.
 

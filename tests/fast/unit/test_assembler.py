@@ -16,6 +16,7 @@ from dolfinx.mesh import CellType
 from meshes import Tag
 from scenes.blocks import Blocks
 from scenes.coupled import Coupled
+from scenes.driven import DrivenBlock
 from scenes.materials import neo_hookean
 from scenes.problems import direct_solver
 from story import METHODS, traction
@@ -52,6 +53,37 @@ def test_blocks_make_up_the_jacobian():
     whole = J.convert("dense").getDenseArray()
     np.testing.assert_array_equal(np.block(rows), whole)
     assert np.abs(whole[:n, n:]).max() > 0 < np.abs(whole[n:, :n]).max()
+
+
+def test_blocks_of_a_solved_problem_leave_its_state_as_it_is():
+    """Some nodes stick and some slip."""
+    scene = DrivenBlock(CellType.quadrilateral, plane=cx.Plane((0, 0), (0, 1)), gap=0.01, n_upper=6)
+    problem, contact = scene.problem, scene.problem.contacts[0]
+    for place in ((0, -0.06), (0.05, -0.06)):
+        scene.top.move(place)
+        problem.solve()
+
+    def state():
+        fields = (problem.u, contact.slip, contact.slip_total, contact.status)
+        return [f.x.array.copy() for f in fields] + [contact.multiplier.copy()]
+
+    report, before = problem.report, state()
+    assert set(contact.discrete.nodes.status) == {1, 2}
+    blocks = problem.blocks()
+    assert problem.report is report is problem.assembler.report
+    for a, b in zip(state(), before, strict=True):
+        np.testing.assert_array_equal(a, b)
+    assembler = problem.assembler
+    assembler.begin_step()
+    assert assembler.settle().converged
+    np.testing.assert_array_equal(contact.discrete.nodes.status, before[3][before[3] >= 0])
+    for name, block in assembler.blocks().items():
+        assert (block - blocks[name]).norm() == 0 < blocks["C"].norm()
+    assembler.restore()
+    scene.top.move((0.06, -0.06))
+    with pytest.raises(RuntimeError, match="loads that were not solved for"):
+        problem.blocks()
+    problem.solve()
 
 
 def test_the_jacobian_is_the_derivative_of_the_residual():
