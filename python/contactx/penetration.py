@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -103,7 +102,7 @@ class FluidPenetration:
                 chosen = vertices[marks]
         if not anywhere(domain.comm, len(chosen) > 0):
             raise ValueError(
-                f"the fluid enters nowhere: entry has no vertex of {surface}. Mark one that it has"
+                f"the fluid enters nowhere: entry has no vertex of {surface}; give one that it has"
             )
         self._entry.x.array[chosen] = 1
         self._facets: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]] | None = None
@@ -152,13 +151,14 @@ def _vertices(Q: fem.FunctionSpace, surface: Surface) -> npt.NDArray[np.int32]:
     """Dofs of a linear space at the vertices of a surface, of all ranks that have them."""
     facet_dim = Q.mesh.topology.dim - 1
     dofs = fem.locate_dofs_topological(Q, facet_dim, surface.facets)
-    return np.unique(dofs).astype(np.int32)
+    vertices: npt.NDArray[np.int32] = np.unique(dofs).astype(np.int32)
+    return vertices
 
 
 def _vertex_of_node(V: fem.FunctionSpace, Q: fem.FunctionSpace) -> npt.NDArray[np.int32]:
     """Dof of the linear space Q at each node of V, -1 at nodes that are no vertices."""
     index_map = V.dofmap.index_map
-    vertex: Any = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int32)
+    vertex = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int32)
     cells = Q.dofmap.list
     # Nodes of a cell begin with its vertices
     vertex[V.dofmap.list[:, : cells.shape[1]].ravel()] = cells.ravel()
