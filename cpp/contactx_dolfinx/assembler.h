@@ -422,6 +422,9 @@ public:
   /// @brief The bulk.
   const std::shared_ptr<Bulk>& bulk() const { return _bulk; }
 
+  /// @brief Nodes of this rank, those of other ranks that pairs need included.
+  const std::shared_ptr<contactx::mesh::Halo>& halo() const { return _halo; }
+
   /// @brief Linear solves of the step so far.
   int number() const { return _problem->number(); }
 

@@ -13,6 +13,7 @@
 #include <contactx_dolfinx/condensed.h>
 #include <contactx_dolfinx/forms.h>
 #include <contactx_dolfinx/obstacles.h>
+#include <contactx_dolfinx/penetration.h>
 #include <contactx_dolfinx/snes.h>
 #include <dolfinx/fem/Constant.h>
 
@@ -23,6 +24,9 @@ namespace cx = contactx_dolfinx;
 
 namespace
 {
+/// A fluid enters at smaller x.
+constexpr double entry = 0.3;
+
 struct Scene : scenes::Domain
 {
   std::shared_ptr<fem::FunctionSpace<U>> V;
@@ -235,6 +239,9 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   SNESLineSearchSetType(search, SNESLINESEARCHBASIC);
   SNESSetTolerances(snes.get(), 0, 1e-11, 0, 50, -1);
   cx::SNESLoop loop(assembler, snes.get());
+  const cx::Surface faces(tags, {11, 21});
+  const auto wet = std::make_shared<fem::Function<T>>(
+      scenes::space(scene, scenes::lagrange(mesh->topology()->cell_type(), 1)));
   for (double way : {0.0, 0.03, -0.02})
   {
     // A step too far, which is given up, leaves no trace
@@ -268,11 +275,13 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
                     scenes::norm(contact->slip())});
     figures.insert(figures.end(), moment.begin() + (scene.dim() == 2 ? 2 : 0),
                    moment.end());
+    cx::penetrate(
+        assembler, faces, [](const auto& x) { return x[0] < entry; }, *wet);
     figures.insert(figures.end(),
-                   {scenes::norm(f.gap), scenes::norm(f.status),
-                    scenes::norm(f.slip_total), scenes::norm(f.master_pressure),
-                    double(totals.closed), totals.area, totals.largest_pressure,
-                    totals.dissipation});
+                   {scenes::norm(wet), scenes::norm(f.gap),
+                    scenes::norm(f.status), scenes::norm(f.slip_total),
+                    scenes::norm(f.master_pressure), double(totals.closed),
+                    totals.area, totals.largest_pressure, totals.dissipation});
     // Iterations go with how accurate Krylov solvers are
     scenes::print(name + std::string(" ")
                   + (scene.condensed ? "condensed" : std::to_string(it.number))

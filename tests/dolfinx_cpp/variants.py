@@ -28,6 +28,8 @@ import meshes
 import story
 
 WAYS = (0.0, 0.03, -0.02)
+# A fluid enters at smaller x
+ENTRY = 0.3
 
 
 def norm(values: Any) -> float:
@@ -70,6 +72,10 @@ def solve(
         petsc_options_prefix="variants_",
         petsc_options={"pc_type": "condensed"} if condensed else LU,
     )
+    fluid = cx.FluidPenetration(
+        V.mesh, cx.Surface(tags, 11, 21), entry=lambda x: x[0] < ENTRY, contacts=[contact]
+    )
+    dofs = fluid.wet.function_space.dofmap
     for way in WAYS:
         push.g.value[...] = way
         problem.solve()
@@ -78,6 +84,8 @@ def solve(
         for f in (fields.pressure, fields.traction, fields.slip):
             figures.append(0.0 if f is None else norm(f.x.array))
         figures += np.atleast_1d(contact.moment([0.5, 0.25, 0.0][:gdim])).tolist()
+        fluid.update()
+        figures.append(norm(fluid.wet.x.array[: dofs.index_map.size_local]))
         for f in (fields.gap, fields.status, fields.slip_total, fields.master_pressure):
             figures.append(0.0 if f is None else norm(np.nan_to_num(f.x.array[:size])))
         totals = fields.totals()
