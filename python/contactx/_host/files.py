@@ -12,6 +12,7 @@ from typing import Any
 
 from mpi4py import MPI
 
+from contactx._host.parallel.reduce import agreed
 from dolfinx import fem, io
 
 
@@ -87,32 +88,51 @@ class Writer(ABC):
 
 
 class VTKWriter(Writer):
-    """A collection of ParaView's, ``.pvd``, with a file of each rank and time beside it."""
+    """A collection of ParaView's, ``.pvd``, with a file of each rank and time beside it.
+
+    The collection lists the times that all ranks have written whole, whenever the program is
+    killed: it is replaced by a longer one that was written beside it.
+    """
 
     def __init__(self, comm: MPI.Comm, path: Path):
-        """Open the file."""
+        """Open the file; an older collection of its name goes, whose data are overwritten."""
         # DOLFINx writes once more when the file is destroyed, wherever the program has gone by then
-        self._rank, self._path = comm.rank, path.absolute()
+        self._comm, self._path = comm, path.absolute()
+        self._beside = self._path.with_suffix(".pvd~")
         self._count = 0
-        self._file = io.VTKFile(comm, self._path, "w")
+        with agreed(comm):
+            if comm.rank == 0:
+                self._path.unlink(missing_ok=True)
+        self._file: io.VTKFile | None = io.VTKFile(comm, self._beside, "w")
 
     def write(self, functions: Sequence[fem.Function], t: float) -> None:
         """See ``Writer``."""
-        self._file.write_function(functions, t)
-        stem = self._path.stem
-        self._check_whole(f"{stem}_p{self._rank}_{self._count:06d}.vtu")
-        if self._rank == 0:
-            self._check_whole(f"{stem}{self._count:06d}.pvtu")
+        assert self._file is not None
+        stem, rank = self._path.stem, self._comm.rank
+        with agreed(self._comm):
+            self._file.write_function(functions, t)
+            self._check_whole(f"{stem}_p{rank}_{self._count:06d}.vtu")
+            if rank == 0:
+                self._check_whole(f"{stem}{self._count:06d}.pvtu")
         self._count += 1
+        if rank == 0:
+            try:
+                # This writes the collection, and the file stays open
+                self._file.close()
+            except RuntimeError as error:
+                raise OSError(f"cannot write {self._path}: {error}") from error
+            self._check_whole(self._beside.name)
+            try:
+                self._beside.replace(self._path)
+            except OSError as error:
+                text = f"cannot write {self._path}: {error.strerror}"
+                raise OSError(error.errno, text) from error
 
     def close(self) -> None:
         """See ``Writer``."""
-        try:
-            self._file.close()
-        except RuntimeError as error:
-            raise OSError(f"cannot write {self._path}: {error}") from error
-        if self._count > 0 and self._rank == 0:
-            self._check_whole(self._path.name)
+        self._file = None
+        if self._comm.rank == 0:
+            self._beside.unlink(missing_ok=True)
 
     def _check_whole(self, name: str) -> None:
         """Check that a file has its end: DOLFINx does not say if it could not be written."""

@@ -189,8 +189,8 @@ def test_results_that_cannot_be_written(tmp_path, size):
 def test_a_collection_that_cannot_be_written(tmp_path):
     scene = Rubbing()
     output = cx.VTKOutput(tmp_path / "run.pvd", scene.u, [scene.contact])
-    output.write(0.0)
     Path(tmp_path / "run.pvd").mkdir()
     with pytest.raises(OSError, match=r"cannot write .*run.pvd"):
-        output.close()
+        output.write(0.0)
     output.close()
+    assert not (tmp_path / "run.pvd~").exists()
