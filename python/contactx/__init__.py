@@ -22,6 +22,7 @@ from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import CSVOutput, VTKOutput
 from contactx.penetration import FluidPenetration
 from contactx.problem import ContactProblem
+from contactx.projection import Projection
 from contactx.report import Report
 from contactx.steps import LoadSteps
 from contactx.surface import Surface
@@ -41,6 +42,7 @@ __all__ = [
     "LevelSet",
     "LoadSteps",
     "Plane",
+    "Projection",
     "Report",
     "Sphere",
     "Surface",

@@ -14,11 +14,16 @@ from typing import Any
 import numpy as np
 
 import basix
+import ufl
 from contactx._host.checks import described, is_number
 from contactx._host.files import WRITERS, check_path, make_folder
 from contactx._host.parallel.reduce import agreed
 from contactx.contact import Contact
+from contactx.projection import Projection
 from dolfinx import fem
+
+# Fields of a contact
+_RESULTS = ("pressure", "traction", "gap", "status")
 
 
 class VTKOutput:
@@ -45,7 +50,7 @@ class VTKOutput:
         u: fem.Function,
         contacts: Sequence[Contact],
         *,
-        fields: Sequence[fem.Function] = (),
+        fields: Sequence[fem.Function | Projection] | Mapping[str, ufl.core.expr.Expr] = (),
     ):
         """Open the file.
 
@@ -54,15 +59,20 @@ class VTKOutput:
                 names are replaced; the folder is made.
             u: Displacement.
             contacts: Contacts of a ContactProblem.
-            fields: Other functions of linear Lagrange spaces to write, such as stresses.
+            fields: What else to write: functions of Lagrange spaces of u's degree, or constant in
+                each cell, and projections. Or, by their names, also expressions such as stresses
+                and functions of quadrature spaces, which are projected on u's nodes at each write.
 
         Raises:
             OSError: If the folder cannot be made, or the path is one.
             TypeError: If an argument is of another kind.
-            ValueError: If the suffix is another one, or a function is of another space.
+            ValueError: If the suffix is another one, a function is of another space, or a name is
+                that of a result.
         """
-        _check_output(u, contacts, fields)
+        _check_output(u, contacts)
         self._suffixes = _suffixes(contacts)
+        results = {name + suffix for suffix in ("", *self._suffixes) for name in _RESULTS}
+        self._fields = _named(fields, u, results if contacts else set())
         path = check_path("path", path)
         if path.suffix not in WRITERS:
             raise ValueError(
@@ -80,7 +90,6 @@ class VTKOutput:
                 make_folder("path", path)
         self._u = u
         self._contacts = list(contacts)
-        self._fields = list(fields)
         self._path = path
         self._closed = False
         self._file = WRITERS[path.suffix](comm, path)
@@ -122,9 +131,14 @@ class VTKOutput:
             raise TypeError(f"t is {described(t)}: give a number")
         if not np.isfinite(t):
             raise ValueError(f"t is {t}: give a finite number")
-        functions = [self._u, *self._fields, *self._merged()]
+        functions = [self._u]
+        for name, field in self._fields:
+            function = field.update() if isinstance(field, Projection) else field
+            function.name = name
+            functions.append(function)
+        functions += self._merged()
         for contact, suffix in zip(self._contacts, self._suffixes, strict=True):
-            for name in ("pressure", "traction", "gap", "status"):
+            for name in _RESULTS:
                 function = getattr(contact, name)
                 function.name = name + suffix
                 functions.append(function)
@@ -174,41 +188,89 @@ def _suffixes(contacts: Sequence[Contact]) -> list[str]:
     return [f"_{name}" if name else "" for name in names]
 
 
-def _check_output(u: Any, contacts: Any, fields: Any) -> None:
-    """Check what is to be written.
+def _check_output(u: Any, contacts: Any) -> None:
+    """Check whose results are to be written.
 
     Args:
         u: Displacement.
         contacts: Contacts.
-        fields: Other functions.
 
     Raises:
         TypeError: If one is of another kind.
-        ValueError: If a function is of another mesh, or not of a linear Lagrange space.
+        ValueError: If a contact is of another mesh or degree.
     """
     if not isinstance(u, fem.Function):
         raise TypeError(f"u must be a dolfinx.fem.Function, not {type(u).__name__}")
-    for name, items, kind in (("contacts", contacts, Contact), ("fields", fields, fem.Function)):
-        what = f"a list of {'contactx.Contact' if kind is Contact else 'fem.Function'}"
-        if isinstance(items, kind) or not isinstance(items, Sequence):
-            raise TypeError(f"{name} must be {what}, not {type(items).__name__}")
-        for item in items:
-            if not isinstance(item, kind):
-                raise TypeError(f"{name} holds a {type(item).__name__}: pass {what}")
-    functions = {f"fields[{k}]": f for k, f in enumerate(fields)}
-    functions |= {f"contacts[{k}]": contact.pressure for k, contact in enumerate(contacts)}
-    for name, function in functions.items():
-        V = function.function_space
-        if V.mesh is not u.function_space.mesh:
-            raise ValueError(f"{name} is on another mesh than u: give one of the same mesh")
-        element, degree = V.ufl_element(), u.function_space.ufl_element().degree
-        if (element.element_family, element.degree) != (basix.ElementFamily.P, degree) or (
-            element.discontinuous
-        ):
-            raise ValueError(
-                f"{name} is of {element}: interpolate it into a Lagrange space of u's degree, "
-                f'functionspace(mesh, ("Lagrange", {degree}))'
+    what = "a list of contactx.Contact"
+    if isinstance(contacts, Contact) or not isinstance(contacts, Sequence):
+        raise TypeError(f"contacts must be {what}, not {type(contacts).__name__}")
+    for k, contact in enumerate(contacts):
+        if not isinstance(contact, Contact):
+            raise TypeError(f"contacts holds a {type(contact).__name__}: pass {what}")
+        _check_space(f"contacts[{k}]", contact.pressure, u)
+
+
+def _named(
+    fields: Any, u: fem.Function, results: set[str]
+) -> list[tuple[str, fem.Function | Projection]]:
+    """Names of what is to be written beside the results, and what it is.
+
+    Args:
+        fields: Functions and projections, or these and expressions by their names.
+        u: Displacement.
+        results: Names that results have.
+
+    Raises:
+        TypeError: If one is of another kind.
+        ValueError: If one is of another mesh or space, or has the name of a result.
+    """
+    if isinstance(fields, ufl.core.expr.Expr | str) or not isinstance(fields, Mapping | Sequence):
+        raise TypeError(
+            f"fields is {described(fields)}: give a list of fem.Function and contactx.Projection, "
+            'or a dictionary, {"mises": expression}'
+        )
+    by_name = isinstance(fields, Mapping)
+    pairs: Any = fields.items() if isinstance(fields, Mapping) else enumerate(fields)
+    domain, degree = u.function_space.mesh, u.function_space.ufl_element().degree
+    named = []
+    for key, field in pairs:
+        what = f"fields[{key!r}]"
+        if by_name and (not isinstance(key, str) or key in results):
+            raise ValueError(f"fields has the name {key!r}: give a text that no result has")
+        function: Any = field.function if isinstance(field, Projection) else field
+        is_nodal = isinstance(function, fem.Function) and not (
+            by_name and function.function_space.ufl_element().has_custom_quadrature
+        )
+        if is_nodal:
+            _check_space(what, function, u)
+        elif by_name and isinstance(function, ufl.core.expr.Expr):
+            V = fem.functionspace(domain, ("Lagrange", degree, function.ufl_shape))
+            field = Projection(function, V)
+        else:
+            raise TypeError(
+                f"{what} is {described(field)}: give a fem.Function or contactx.Projection, and "
+                'expressions by their names, {"mises": expression}'
             )
+        named.append((key if by_name else function.name, field))
+    return named
+
+
+def _check_space(name: str, function: fem.Function, u: fem.Function) -> None:
+    """Check that a function is on u's nodes, or constant in each cell.
+
+    Raises:
+        ValueError: If it is not.
+    """
+    V = function.function_space
+    if V.mesh is not u.function_space.mesh:
+        raise ValueError(f"{name} is on another mesh than u: give one of the same mesh")
+    element, degree = V.ufl_element(), u.function_space.ufl_element().degree
+    is_nodal = (element.degree, element.discontinuous) == (degree, False)
+    if element.element_family != basix.ElementFamily.P or not (is_nodal or element.degree == 0):
+        raise ValueError(
+            f"{name} is of {element}: interpolate or project it into a Lagrange space of u's "
+            f'degree, functionspace(mesh, ("Lagrange", {degree})), or of cells, ("DG", 0)'
+        )
 
 
 class CSVOutput:

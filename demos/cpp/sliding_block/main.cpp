@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <basix/finite-element.h>
 #include <contactx_dolfinx/assembler.h>
+#include <contactx_dolfinx/vtk_output.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
-#include <dolfinx/io/VTKFile.h>
 #include <dolfinx/io/XDMFFile.h>
 
 using namespace dolfinx;
@@ -93,8 +93,8 @@ int main(int argc, char* argv[])
     solver.set_from_options();
 
     // Press, then push to the right, to the left and back; ParaView opens
-    // displacement and results of all steps
-    io::VTKFile output(MPI_COMM_WORLD, "sliding_block.pvd", "w");
+    // displacement and results of all steps so far
+    cx::VTKOutput output(MPI_COMM_WORLD, "sliding_block.pvd");
     const Vec x = assembler.x();
     const cx::petsc::OwnVec b(assembler.create_vector()),
         dx(assembler.create_vector());
@@ -117,7 +117,7 @@ int main(int argc, char* argv[])
       assembler.accept();
       auto functions = contact->functions().all();
       functions.push_back(*u);
-      output.write<T>(functions, step);
+      output.write(functions, step);
 
       const auto force = contact->force();
       const auto status = contact->status();

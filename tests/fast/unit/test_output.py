@@ -100,6 +100,9 @@ def test_names_that_are_refused(tmp_path: Path):
     scene.problem(*contacts)
     with pytest.raises(ValueError, match="several with the name 'seat'"):
         cx.CSVOutput(tmp_path / "totals.csv", contacts)
+    with pytest.raises(ValueError, match="fields has the name 'gap_seat'"):
+        fields = {"gap_seat": fem.Constant(scene.u.function_space.mesh, 1.0)}
+        cx.VTKOutput(tmp_path / "run.pvd", scene.u, contacts[:1], fields=fields)
 
 
 def test_a_program_that_goes_to_another_folder(tmp_path: Path, monkeypatch):
