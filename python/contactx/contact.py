@@ -24,6 +24,7 @@ from contactx._host.parallel.halo import Halo
 from contactx._host.parallel.reduce import agreed
 from contactx.laws import FrictionLaw
 from contactx.obstacles import Obstacle
+from contactx.reaction import as_point
 from contactx.surface import Surface, check_straight
 from dolfinx import fem, mesh
 
@@ -519,15 +520,8 @@ class Contact:
             RuntimeError: If the model is axisymmetric: forces on a ring have no moment about a
                 point in the plane of the mesh.
         """
-        gdim = len(self.force)
-        try:
-            at = np.asarray(point, dtype=np.float64)
-        except (TypeError, ValueError):
-            raise TypeError(f"point is {point!r}: give {gdim} real numbers") from None
-        if at.shape != (gdim,) or not np.isfinite(at).all():
-            raise ValueError(f"point is {point!r}: give {gdim} finite numbers")
-        moment = self.fields.moment(at)
-        return float(moment[0]) if gdim == 2 else moment
+        moment = self.fields.moment(as_point(point, len(self.force)))
+        return float(moment[0]) if len(moment) == 1 else moment
 
 
 def _named(surface: Surface, V: fem.FunctionSpace) -> NamedSurface:

@@ -19,7 +19,9 @@ from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
+from contactx.reaction import Reaction, reaction_of
 from contactx.report import Report
+from contactx.surface import Surface
 from dolfinx import fem
 
 
@@ -142,6 +144,31 @@ class ContactProblem:
     def solver(self) -> PETSc.SNES:
         """The SNES solver."""
         return self._newton.snes
+
+    def reaction(self, where: fem.DirichletBC | Surface | None = None) -> Reaction:
+        """Force of supports on the bodies, with its moment; all ranks must take part.
+
+        It is the sum of what bulk and contacts leave unbalanced at their nodes, as of the last
+        solve, with the loads of that solve. Over all supports it is in balance with the loads and
+        with the contacts' forces on the bodies from rigid obstacles. In ContactDynamics inertia is
+        among the loads, and forces are those of the middle of the step. In an axisymmetric model
+        the force along the axis is that of all the circumference, and the radial one the sum of
+        radial forces, which have no resultant.
+
+        Args:
+            where: A condition: the force that it exerts, in the components that it prescribes. Or a
+                surface: the force on all its nodes, which is zero, but for the tolerance, where
+                these are free. All conditions of the problem, each dof once, if None.
+
+        Returns:
+            The force, ``problem.reaction(bc).force``, and its moment about a point.
+
+        Raises:
+            TypeError: If where is something else.
+            ValueError: If the condition prescribes no displacement of the problem, or the surface
+                is of another mesh.
+        """
+        return reaction_of(self.assembler, where)
 
     def find_rigid_modes(self) -> None:
         """Find the rigid modes of free bodies; LoadSteps calls this before it loads a checkpoint.

@@ -18,10 +18,12 @@ import ufl
 from dolfinx import fem, mesh
 
 import plot
+from meshes import Tag
 from meshes.build import build_mesh
 from plot.surface import deformed_surface
 from ranks.agreeing import refused
 from ranks.relaxed import MESHES
+from scenes import Blocks
 
 WORLD = MPI.COMM_WORLD
 ROOT = WORLD.rank == 0
@@ -96,6 +98,24 @@ def files_and_surfaces(folder: Path) -> None:
             print(f"{name}: files and surface", flush=True)
 
 
+def reactions() -> None:
+    """Supports are in balance with contact, and a surface has what its conditions exert."""
+    for cell in (mesh.CellType.triangle, mesh.CellType.hexahedron):
+        scene = Blocks(cell)
+        gdim = len(scene.u)
+        contact = scene.contact(master=cx.Plane([0.0] * gdim, np.eye(gdim)[-1]), friction=0.3)
+        problem = scene.problem(contact)
+        problem.solve()
+        supports = problem.reaction()
+        assert np.allclose(supports.force, -contact.force, rtol=0, atol=1e-9) and any(contact.force)
+        top = problem.reaction(cx.Surface(scene.tags, Tag.UPPER_TOP))
+        parts = [problem.reaction(bc).force for bc in scene.bcs[gdim:]]
+        assert np.allclose(top.force, sum(parts), rtol=0, atol=1e-9)
+        assert np.allclose(top.moment([0.0] * gdim), supports.moment([0.0] * gdim), atol=1e-9)
+    if ROOT:
+        print("reactions balance", flush=True)
+
+
 def patch(rank: int) -> tuple[Array, Array]:
     """Places and triangles of a part of a face; the last rank has nothing."""
     x, y = np.meshgrid(np.arange(3.0) + 2 * rank, [0.0, 1.0])
@@ -159,4 +179,5 @@ if __name__ == "__main__":
     place = Path(sys.argv[1])
     files_and_surfaces(place)
     parts(place)
+    reactions()
     picture_and_errors(place)

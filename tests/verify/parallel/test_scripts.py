@@ -34,7 +34,11 @@ RUNS = {
     ),
     "output_ranks": (
         3,
-        [*(f"{name}: files and surface" for name in MESHES), "parts make the whole"],
+        [
+            *(f"{name}: files and surface" for name in MESHES),
+            "parts make the whole",
+            "reactions balance",
+        ],
         4,
     ),
 }
