@@ -21,6 +21,7 @@ from contactx.laws import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import CSVOutput, VTKOutput
 from contactx.penetration import FluidPenetration
+from contactx.pictures import animate
 from contactx.problem import ContactProblem
 from contactx.projection import Projection
 from contactx.report import Report
@@ -47,6 +48,7 @@ __all__ = [
     "Sphere",
     "Surface",
     "VTKOutput",
+    "animate",
 ]
 
 __version__ = "0.2.0"

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy.typing as npt
 
 import ufl
 from contactx import cpp as core
+from contactx import pictures
 from contactx._host.bodies import Bodies
 from contactx._host.checks import check_switch, described, is_number
 from contactx._host.discrete_contact import DiscreteContact, Fields, NamedSurface
@@ -522,6 +524,33 @@ class Contact:
         """
         moment = self.fields.moment(as_point(point, len(self.force)))
         return float(moment[0]) if len(moment) == 1 else moment
+
+    def plot(
+        self,
+        path: str | Path | None = None,
+        *,
+        scale: float = 1.0,
+        camera: Sequence[float] | None = None,
+    ) -> None:
+        """Draw the deformed bodies, the obstacle and the contact pressure, by PyVista.
+
+        In 2D the pressure stands upon the slave surface as a strip as high as it is; in 3D the
+        slave facets have its colours, and one looks at them through the front of the bodies, of
+        which the insides are drawn. All ranks must take part; rank 0 draws.
+
+        Args:
+            path: The picture, ``.png`` or ``.jpg``; a window if None.
+            scale: Factor of the displacement; obstacles stay where they are.
+            camera: Direction from the bodies to the viewer in 3D, shape (3,).
+
+        Raises:
+            ImportError: If PyVista is not installed.
+            OSError: If the folder of the picture cannot be made.
+            RuntimeError: If the contact belongs to no problem yet.
+            TypeError: If an argument is of another kind.
+            ValueError: If the suffix is another one, or a number is out of its range.
+        """
+        pictures.plot([self], path, scale, camera)
 
 
 def _named(surface: Surface, V: fem.FunctionSpace) -> NamedSurface:

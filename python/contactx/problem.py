@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
+from pathlib import Path
 from typing import Any
 
 from petsc4py import PETSc
 
 import ufl
 from contactx import cpp as core
+from contactx import pictures
 from contactx._host.callbacks import Interrupts
 from contactx._host.checkpoint.snapshot import Snapshot
 from contactx._host.options import check_petsc_options, is_condensed, newton_options
@@ -169,6 +171,28 @@ class ContactProblem:
                 is of another mesh.
         """
         return reaction_of(self.assembler, where)
+
+    def plot(
+        self,
+        path: str | Path | None = None,
+        *,
+        scale: float = 1.0,
+        camera: Sequence[float] | None = None,
+    ) -> None:
+        """Draw the deformed bodies and the pressures of all contacts; see ``Contact.plot``.
+
+        Args:
+            path: The picture, ``.png`` or ``.jpg``; a window if None.
+            scale: Factor of the displacement.
+            camera: Direction from the bodies to the viewer in 3D, shape (3,).
+
+        Raises:
+            ImportError: If PyVista is not installed.
+            OSError: If the folder of the picture cannot be made.
+            TypeError: If an argument is of another kind.
+            ValueError: If the suffix is another one, or a number is out of its range.
+        """
+        pictures.plot(self.contacts, path, scale, camera)
 
     def find_rigid_modes(self) -> None:
         """Find the rigid modes of free bodies; LoadSteps calls this before it loads a checkpoint.
