@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 import contactx as cx
 import ufl
+from contactx._host.picture import View, draw, gather
 from dolfinx import fem, mesh
 
 import plot
@@ -116,6 +117,38 @@ def reactions() -> None:
         print("reactions balance", flush=True)
 
 
+def contact_pictures(folder: Path) -> None:
+    """Rank 0 draws all bodies and pressures, and what it lacks is said on all."""
+    for cell in (mesh.CellType.quadrilateral, mesh.CellType.tetrahedron):
+        scene = Blocks(cell)
+        contact = scene.contact()
+        problem = scene.problem(contact)
+        problem.solve()
+        domain = scene.u.function_space.mesh
+        volume = fem.form(ufl.det(ufl.Identity(len(scene.u)) + ufl.grad(scene.u)) * ufl.dx(domain))
+        exact = WORLD.allreduce(fem.assemble_scalar(volume))
+        largest = WORLD.allreduce(contact.pressure.x.array.max(), MPI.MAX)
+        closed = WORLD.allreduce(int((contact.multiplier > 0).sum()))
+        shown = gather([contact], 1.0)
+        assert (shown is not None) == ROOT
+        if shown is not None:
+            bodies = draw(shown, View([shown]), shown.limits).meshes[0]
+            assert np.isclose(bodies.area if len(scene.u) == 2 else bodies.volume, exact, rtol=1e-6)
+            assert shown.limits[1] == largest > 0 and (shown.pressure > 0).sum() == closed
+        with cx.animate(folder / "run.gif", problem) as film:
+            film.write(0.0)
+        problem.plot(folder / "run.png")
+        WORLD.Barrier()
+        assert all((folder / name).stat().st_size > 3000 for name in ("run.gif", "run.png"))
+    modules = dict(sys.modules)
+    if ROOT:
+        sys.modules["pyvista"] = None  # type: ignore[assignment]
+    refused(ImportError, "pictures need pyvista", lambda: contact.plot(folder / "none.png"))
+    sys.modules.update(modules)
+    if ROOT:
+        print("pictures of contact", flush=True)
+
+
 def patch(rank: int) -> tuple[Array, Array]:
     """Places and triangles of a part of a face; the last rank has nothing."""
     x, y = np.meshgrid(np.arange(3.0) + 2 * rank, [0.0, 1.0])
@@ -180,4 +213,5 @@ if __name__ == "__main__":
     files_and_surfaces(place)
     parts(place)
     reactions()
+    contact_pictures(place)
     picture_and_errors(place)

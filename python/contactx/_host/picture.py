@@ -231,15 +231,14 @@ class View:
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
         self.depth = high[2] - low[2]
         self.size = high[:2] - low[:2]
-        margin = _MARGIN * self.size.max()
-        # What it shows, apart from the colours
-        self.box = np.stack([low[:2] - margin, high[:2] + margin], axis=1)
-        width, height = self.size + 2 * margin
+        width, height = self.size + 2 * _MARGIN * self.size.max()
         # Length of a pixel
         rows = int(np.clip(_WIDTH * height / width, _LOWEST, _HIGHEST))
         self.pixel = max(width / _WIDTH, height / rows)
         self.window = [_WIDTH, rows + _BAR]
         middle = (low + high) / 2
+        # Lowest place above the colours
+        self.bottom = middle[1] - self.pixel * rows / 2
         middle[1] -= self.pixel * _BAR / 2
         self.focus = middle @ basis
 
@@ -280,8 +279,7 @@ def draw(
     flat = scene.gdim == 2
     for rigid in scene.rigid:
         if flat:
-            bounds = [-np.inf, np.inf, *view.box[1], -1.0, 1.0]
-            rigid = rigid.clip_box(bounds, invert=False)
+            rigid = rigid.clip("-y", origin=(0, view.bottom, 0))
             rigid = rigid.translate(-_BEFORE * view.size.max() * view.towards)
         plotter.add_mesh(rigid, color=_RIGID, lighting=not flat, opacity=1.0 if flat else 0.5)
     bodies = pyvista.PolyData.from_regular_faces(scene.x, scene.faces)
@@ -368,7 +366,7 @@ def _loaded(scene: Scene) -> Index:
 
 
 def _strips(scene: Scene, view: View, largest: float) -> Any:
-    """Pressures in 2D as heights over the surface, into the slave; None where there are none."""
+    """Pressures in 2D as heights over the slave surface; None where there are none."""
     facets = _loaded(scene)
     if not len(facets):
         return None
@@ -382,7 +380,7 @@ def _strips(scene: Scene, view: View, largest: float) -> Any:
     height = _HEIGHT * np.sqrt(np.prod(view.size + _MARGIN * view.size.max())) / largest
     # Before edges and outlines
     foot = scene.x + _BEFORE * view.size.max() * view.towards
-    top = foot - height * np.abs(scene.pressure)[:, None] * normal
+    top = foot + height * np.abs(scene.pressure)[:, None] * normal
     quads = np.hstack([facets, facets[:, ::-1] + len(foot)])
     strips = import_pyvista().PolyData.from_regular_faces(np.concatenate([foot, top]), quads)
     strips.point_data["pressure"] = np.tile(scene.pressure, 2)

@@ -38,8 +38,9 @@ RUNS = {
             *(f"{name}: files and surface" for name in MESHES),
             "parts make the whole",
             "reactions balance",
+            "pictures of contact",
         ],
-        4,
+        5,
     ),
 }
 
