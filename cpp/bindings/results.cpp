@@ -10,6 +10,7 @@ namespace py = pybind11;
 using namespace contactx_bindings;
 using contactx::Vector;
 using contactx::contact::Contact;
+using contactx::geometry::FacetList;
 using contactx::mesh::Halo;
 using contactx::results::Results;
 using contactx::results::Totals;
@@ -21,6 +22,20 @@ py::array_t<double> vectors(const Results& self,
                             const std::vector<double>& values)
 {
   return array(values, {std::ssize(self.gap()), self.gdim()});
+}
+
+/// Moments: the last component in 2D, else all.
+py::array_t<double> moments(const Results& self, const Vector<3>& m)
+{
+  const bool is_plane = self.gdim() == 2;
+  return py::array_t<double>(is_plane ? 1 : 3, m.data() + (is_plane ? 2 : 0));
+}
+
+/// Facets in compressed form.
+FacetList facets(const Array<std::int32_t>& offsets,
+                 const Array<std::int32_t>& nodes)
+{
+  return {view(offsets), view(nodes)};
 }
 
 /// The gdim components of a vector.
@@ -64,16 +79,34 @@ void contactx_bindings::results(py::module_& m)
       .def_property_readonly("recovery_change", &Results::recovery_change)
       .def_property_readonly("is_axisymmetric", &Results::is_axisymmetric)
       .def(
-          "moment",
-          [](const Results& self, const Array<double>& point)
+          "moment", [](const Results& self, const Array<double>& point)
+          { return moments(self, self.moment(view(point))); }, py::arg("point"))
+      .def(
+          "moment_of",
+          [](const Results& self, const Array<double>& point,
+             const Array<double>& shares)
+          { return moments(self, self.moment(view(point), view(shares))); },
+          py::arg("point"), py::arg("shares"))
+      .def(
+          "force_of", [](const Results& self, const Array<double>& shares)
+          { return components(self, self.force(view(shares))); },
+          py::arg("shares"))
+      .def("totals", [](const Results& self) { return self.totals(); })
+      .def(
+          "totals_of", [](const Results& self, const Array<double>& shares)
+          { return self.totals(view(shares)); }, py::arg("shares"))
+      .def(
+          "shares",
+          [](const Results& self, const Array<std::int32_t>& part_offsets,
+             const Array<std::int32_t>& part_nodes,
+             const Array<std::int32_t>& offsets,
+             const Array<std::int32_t>& nodes)
           {
-            const Vector<3> moment = self.moment(view(point));
-            const bool is_plane = self.gdim() == 2;
-            return py::array_t<double>(is_plane ? 1 : 3,
-                                       moment.data() + (is_plane ? 2 : 0));
+            return array(self.shares(facets(part_offsets, part_nodes),
+                                     facets(offsets, nodes)));
           },
-          py::arg("point"))
-      .def("totals", &Results::totals)
+          py::arg("part_offsets"), py::arg("part_nodes"), py::arg("offsets"),
+          py::arg("nodes"))
       .def("recovered_pressure",
            [](const Results& self) { return array(self.recovered_pressure()); })
       .def(

@@ -11,6 +11,8 @@ back where one fails. ``VTKOutput`` writes the results. Import contactx before d
 # First, because it loads the wheels' MPI and PETSc before DOLFINx
 from contactx._host import compat as compat  # isort: skip
 
+from contactx._host.pictures import animate
+from contactx._host.projection import Projection
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
@@ -23,7 +25,6 @@ from contactx.output import CSVOutput, VTKOutput
 from contactx.penetration import FluidPenetration
 from contactx.pictures import animate
 from contactx.problem import ContactProblem
-from contactx.projection import Projection
 from contactx.report import Report
 from contactx.steps import LoadSteps
 from contactx.surface import Surface

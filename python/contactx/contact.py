@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 import ufl
 from contactx import cpp as core
-from contactx import pictures
+from contactx._host import pictures
 from contactx._host.bodies import Bodies
 from contactx._host.checks import check_switch, described, is_number
 from contactx._host.discrete_contact import DiscreteContact, Fields, NamedSurface
@@ -24,9 +24,10 @@ from contactx._host.nodes import node_levels
 from contactx._host.parallel import reduce
 from contactx._host.parallel.halo import Halo
 from contactx._host.parallel.reduce import agreed
+from contactx._host.part import ContactPart, checked_tags, shares_of
+from contactx._host.reaction import as_point
 from contactx.laws import FrictionLaw
 from contactx.obstacles import Obstacle
-from contactx.reaction import as_point
 from contactx.surface import Surface, check_straight
 from dolfinx import fem, mesh
 
@@ -171,6 +172,8 @@ class Contact:
         self._core_options().check(is_self=self.is_self)
         self._discrete: DiscreteContact | None = None
         self._values: ContactValues | None = None
+        # What of each node is of facets with some tags
+        self._shares: dict[tuple[int, ...], npt.NDArray[np.float64]] = {}
         self._fields: Fields | None = None
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -315,6 +318,7 @@ class Contact:
     def detach(self) -> None:
         """Free the contact for another problem; ContactProblem calls this if it is refused."""
         self._discrete = self._values = self._fields = None
+        self._shares.clear()
 
     @property
     def active(self) -> bool:
@@ -374,6 +378,14 @@ class Contact:
         The integral of its shape function with the contact's weight.
         """
         return self.discrete.nodes.area
+
+    @property
+    def closed_area(self) -> float:
+        """Reference area of the slave nodes in contact, on all ranks, which must take part.
+
+        It is the sum of their nodal areas, as in ``CSVOutput``.
+        """
+        return self.fields.totals().area
 
     @property
     def multiplier(self) -> npt.NDArray[np.float64]:
@@ -524,6 +536,33 @@ class Contact:
         """
         moment = self.fields.moment(as_point(point, len(self.force)))
         return float(moment[0]) if len(moment) == 1 else moment
+
+    def part(self, *tags: int) -> ContactPart:
+        """What contact does on the facets of some tags alone; all ranks must take part.
+
+        ``contact.part(31).force`` is the force on one roller of many that have tags of their own;
+        it is that on the slave or on the master, whichever has the tag, and in self-contact on
+        both. ``area``, pressure, gap and the numbers of nodes are those of slave nodes.
+
+        Args:
+            tags: Tags of facets of the slave or the master.
+
+        Returns:
+            Force, moment about a point, area and others, as of the last accepted step.
+
+        Raises:
+            RuntimeError: If the contact belongs to no problem yet.
+            TypeError: If a tag is no integer.
+            ValueError: If neither surface has a tag.
+        """
+        surfaces = [self.slave]
+        if isinstance(self.master, Surface) and not self.is_self:
+            surfaces.append(self.master)
+        some = checked_tags(tags, surfaces)
+        if some not in self._shares:
+            V = self.fields.traction.function_space
+            self._shares[some] = shares_of(self.fields, surfaces, some, V)
+        return ContactPart(self.fields, self._shares[some])
 
     def plot(
         self,

@@ -18,8 +18,8 @@ import ufl
 from contactx._host.checks import described, is_number
 from contactx._host.files import WRITERS, check_path, make_folder
 from contactx._host.parallel.reduce import agreed
+from contactx._host.projection import Projection
 from contactx.contact import Contact
-from contactx.projection import Projection
 from dolfinx import fem
 
 # Fields of a contact

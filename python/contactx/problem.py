@@ -13,15 +13,15 @@ from petsc4py import PETSc
 
 import ufl
 from contactx import cpp as core
-from contactx import pictures
+from contactx._host import pictures
 from contactx._host.callbacks import Interrupts
 from contactx._host.checkpoint.snapshot import Snapshot
 from contactx._host.options import check_petsc_options, is_condensed, newton_options
+from contactx._host.reaction import Reaction, reaction_of
 from contactx.assembler import ContactAssembler
 from contactx.conductance import Conductance
 from contactx.contact import Contact
 from contactx.errors import ConvergenceError, NotFiniteError
-from contactx.reaction import Reaction, reaction_of
 from contactx.report import Report
 from contactx.surface import Surface
 from dolfinx import fem

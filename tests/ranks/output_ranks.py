@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 import contactx as cx
 import ufl
-from contactx._host.picture import View, draw, gather
+from contactx._host.drawing import View, draw, gather
 from dolfinx import fem, mesh
 
 import plot

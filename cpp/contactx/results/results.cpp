@@ -83,6 +83,20 @@ void add_rows(std::span<const double> values, int width, double* sum)
   for (std::size_t i = 0; i < values.size(); ++i)
     sum[i % width] += values[i];
 }
+
+/// Moment of forces of all ranks about a point.
+Vector<3> sum_of_moments(mesh::Ranks& ranks, const Vector<3>& about,
+                         std::span<const double> x,
+                         std::span<const double> forces, int gdim)
+{
+  Vector<3> sum{};
+  for (std::size_t i = 0; i < forces.size() / gdim; ++i)
+    sum = sum
+          + cross(vector_at(x, i, gdim) - about, vector_at(forces, i, gdim));
+  if (ranks.size() > 1)
+    ranks.reduce(std::span<double>(sum), mesh::Reduction::sum);
+  return sum;
+}
 } // namespace
 
 Results::Results(std::shared_ptr<const Contact> contact)
@@ -251,7 +265,8 @@ std::vector<double> Results::between(std::vector<double> values,
   return values;
 }
 
-Vector<3> Results::moment(std::span<const double> point) const
+/// Check that there is a moment, about a point.
+Vector<3> Results::check_moment(std::span<const double> point) const
 {
   if (_is_axisymmetric)
     throw std::logic_error(
@@ -264,37 +279,100 @@ Vector<3> Results::moment(std::span<const double> point) const
                                  [](double p) { return std::isfinite(p); }))
     throw std::invalid_argument("the point of a moment must have "
                                 + std::to_string(g) + " finite coordinates");
-  const Vector<3> about = vector_at(point, 0, g);
+  return vector_at(point, 0, g);
+}
+
+Vector<3> Results::moment(std::span<const double> point) const
+{
+  return sum_of_moments(_contact->halo().ranks(), check_moment(point), _at,
+                        _on_slave, gdim());
+}
+
+Vector<3> Results::moment(std::span<const double> point,
+                          std::span<const double> shares) const
+{
+  const Vector<3> about = check_moment(point);
+  return sum_of_moments(_contact->halo().ranks(), about,
+                        _contact->halo().now()->x, forces_of(shares), gdim());
+}
+
+Vector<3> Results::force(std::span<const double> shares) const
+{
   Vector<3> sum{};
-  for (std::size_t i = 0; i < _pressure.size(); ++i)
-    sum = sum + cross(vector_at(_at, i, g) - about, vector_at(_on_slave, i, g));
+  add_rows(forces_of(shares), gdim(), sum.data());
   mesh::Ranks& ranks = _contact->halo().ranks();
   if (ranks.size() > 1)
     ranks.reduce(std::span<double>(sum), mesh::Reduction::sum);
   return sum;
 }
 
-Totals Results::totals() const
+/// Shares of the forces on the owned nodes (num_owned, gdim); collective.
+std::vector<double> Results::forces_of(std::span<const double> shares) const
+{
+  const mesh::Halo& halo = _contact->halo();
+  halo.ranks().agree(
+      [&] { check::rows(shares.size(), halo.num_owned(), 1, "shares"); });
+  std::vector<double> forces = nodal_forces(assembled());
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    forces[k] *= shares[k / gdim()];
+  return forces;
+}
+
+std::vector<double> Results::shares(const geometry::FacetList& part,
+                                    const geometry::FacetList& whole) const
+{
+  const mesh::Halo& halo = _contact->halo();
+  const auto areas = [&](const geometry::FacetList& facets)
+  {
+    std::vector<double> result
+        = geometry::nodal_areas(facets, halo.reference(), gdim());
+    halo.reverse(result, 1);
+    result.resize(halo.num_owned());
+    return result;
+  };
+  std::vector<double> shares = areas(part);
+  const std::vector<double> all = areas(whole);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    if (shares[i] > 0)
+      shares[i] /= all[i];
+  return shares;
+}
+
+Totals Results::totals(std::span<const double> shares) const
 {
   const NodeState& nodes = *_contact->nodes();
+  const mesh::Halo& halo = _contact->halo();
+  halo.ranks().agree(
+      [&]
+      {
+        if (not shares.empty())
+          check::rows(shares.size(), halo.num_owned(), 1, "shares");
+      });
+  const auto owned = _contact->slaves().owned();
+  std::vector<double> share(owned.size(), 1);
+  if (not shares.empty())
+    std::ranges::transform(owned, share.begin(),
+                           [&](std::int32_t node) { return shares[node]; });
   // Numbers of nodes in contact and slipping, area, work of friction
   std::array<double, 4> sums{};
   for (std::size_t i = 0; i < nodes.status.size(); ++i)
-    if (nodes.closed(i))
+    if (share[i] > 0 and nodes.closed(i))
     {
       sums[0] += 1;
       sums[1] += nodes.status[i] == law::slip;
-      sums[2] += nodes.area[i];
+      sums[2] += share[i] * nodes.area[i];
     }
   if (const auto& history = _contact->history())
-    for (const double work : history->dissipation())
-      sums[3] += work;
+    for (std::size_t i = 0; i < share.size(); ++i)
+      sums[3] += share[i] * history->dissipation()[i];
   std::array<double, 2> most{0, -infinity};
-  for (const double p : _pressure)
-    most[0] = std::max(most[0], p);
-  for (const double gap : nodes.gap)
-    if (std::isfinite(gap))
-      most[1] = std::max(most[1], -gap);
+  for (std::size_t i = 0; i < share.size(); ++i)
+    if (share[i] > 0)
+    {
+      most[0] = std::max(most[0], _pressure[i]);
+      if (std::isfinite(nodes.gap[i]))
+        most[1] = std::max(most[1], -nodes.gap[i]);
+    }
   mesh::Ranks& ranks = _contact->halo().ranks();
   if (ranks.size() > 1)
   {

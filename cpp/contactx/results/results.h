@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../contact/contact.h"
+#include "../geometry/nodal.h"
 #include "../math/vec.h"
 #include "recovery.h"
 #include <cstdint>
@@ -108,7 +109,36 @@ public:
 
   /// @brief Sums over all ranks of the state of now, with the pressure of the
   /// last update; collective.
-  Totals totals() const;
+  /// @param[in] shares What of each owned node counts, as `shares` has it
+  /// (shape=(num_owned)); all if empty.
+  /// @throws std::invalid_argument on all ranks if there are not as many.
+  Totals totals(std::span<const double> shares = {}) const;
+
+  /// @brief What of each node belongs to a part of the surfaces: that of its
+  /// reference area; collective.
+  ///
+  /// Shares of parts that make up the whole sum to one, and so do what is
+  /// summed with them.
+  /// @param[in] part Facets of the part, of this rank's cells.
+  /// @param[in] whole Facets of all of the surfaces, of this rank's cells.
+  /// @return Shares of the owned nodes (shape=(num_owned)).
+  std::vector<double> shares(const geometry::FacetList& part,
+                             const geometry::FacetList& whole) const;
+
+  /// @brief Force of contact on a part of the surfaces, on nodes of the slave
+  /// and of the master, of all ranks and for the state of now; collective.
+  /// @param[in] shares What of each owned node counts (shape=(num_owned)).
+  /// @throws std::invalid_argument on all ranks if there are not as many.
+  Vector<3> force(std::span<const double> shares) const;
+
+  /// @brief Moment of this force, which acts where the nodes are now;
+  /// collective.
+  /// @param[in] point The point that it is about, of gdim coordinates.
+  /// @param[in] shares What of each owned node counts (shape=(num_owned)).
+  /// @throws std::invalid_argument as `force` and the other `moment` do.
+  /// @throws std::logic_error if the model is axisymmetric.
+  Vector<3> moment(std::span<const double> point,
+                   std::span<const double> shares) const;
 
   /// @brief Pressures for the multipliers of now, recovered as `pressure` is;
   /// collective (shape=(n)).
@@ -144,6 +174,8 @@ private:
   Recovered tractions() const;
   std::vector<double> between(std::vector<double> values, int width) const;
   void check_deformable() const;
+  Vector<3> check_moment(std::span<const double> point) const;
+  std::vector<double> forces_of(std::span<const double> shares) const;
 
   std::shared_ptr<const contact::Contact> _contact;
   std::shared_ptr<const Recovery> _recovery;

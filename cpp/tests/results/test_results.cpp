@@ -241,6 +241,67 @@ TYPED_TEST(ResultsOf, ForcesAreInBalanceAndTheSameOnRanks)
   }
 }
 
+TYPED_TEST(ResultsOf, PartsOfASurfaceMakeUpTheWhole)
+{
+  for (const int dim : {2, 3})
+  {
+    const auto check = [&](ContactScene& scene)
+    {
+      const auto contact = uneven<TypeParam>(scene);
+      Results results(contact);
+      results.update();
+      // Left and right facets, which share nodes
+      const geometry::FacetList whole = scene.slaves->own();
+      std::array<std::vector<std::int32_t>, 2> offsets{{{0}, {0}}}, nodes;
+      for (std::int32_t f = 0; f < whole.size(); ++f)
+      {
+        double middle = 0;
+        for (const std::int32_t node : whole[f])
+          middle += scene.halo->reference()[dim * node] / whole[f].size();
+        const int side = middle > 0.4;
+        nodes[side].insert(nodes[side].end(), whole[f].begin(), whole[f].end());
+        offsets[side].push_back(std::ssize(nodes[side]));
+      }
+      Vector<3> force{}, turn{};
+      results::Totals sum;
+      std::int64_t closed = 0;
+      double pressure = 0;
+      const Vector<3> point = point_in(dim);
+      const auto about = std::span<const double>(point).first(dim);
+      for (int side = 0; side < 2; ++side)
+      {
+        const std::vector<double> shares
+            = results.shares({offsets[side], nodes[side]}, whole);
+        force = force + results.force(shares);
+        turn = turn + results.moment(about, shares);
+        const results::Totals part = results.totals(shares);
+        EXPECT_GT(part.area, 0.1);
+        sum.area += part.area;
+        closed += part.closed;
+        pressure = std::max(pressure, part.largest_pressure);
+      }
+      const results::Totals totals = results.totals();
+      expect_near(force, results.force(), 1e-13);
+      expect_near(turn, moment(results, dim), 1e-13);
+      EXPECT_NEAR(sum.area, totals.area, 1e-13);
+      EXPECT_EQ(pressure, totals.largest_pressure);
+      // Those on the border are in both
+      EXPECT_GE(closed, totals.closed);
+      const std::vector<double> few(1, 1.);
+      EXPECT_THROW(results.force(few), std::invalid_argument);
+      EXPECT_THROW(results.totals(few), std::invalid_argument);
+    };
+    ContactScene alone(dim);
+    check(alone);
+    on_ranks(3,
+             [&](mesh::Ranks& ranks)
+             {
+               ContactScene part(dim, 0.05, Cells::mixed, &ranks);
+               check(part);
+             });
+  }
+}
+
 TYPED_TEST(ResultsOf, ACopyIsReturnedToBitForBit)
 {
   for (const int dim : {2, 3})

@@ -10,7 +10,7 @@ from PIL import Image
 
 import contactx as cx
 import ufl
-from contactx._host.picture import View, draw, gather
+from contactx._host.drawing import View, draw, gather
 from dolfinx import fem
 from dolfinx.mesh import CellType
 

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactx._host.checks import described, is_number
+from contactx._host.drawing import Scene, View, draw, gather, import_pyvista
 from contactx._host.files import check_path, make_folder
 from contactx._host.parallel.reduce import agreed
-from contactx._host.picture import Scene, View, draw, gather, import_pyvista
 
 if TYPE_CHECKING:
     from contactx.contact import Contact

@@ -156,7 +156,7 @@ def _check(expression: Any, V: Any, dx: Any) -> _Rule | None:
     points, weights = rules[0]
     if not all(len(p) == len(points) and np.allclose(p, points) for p, _ in rules):
         raise ValueError(
-            "expression has functions of several quadrature rules in it: project each by itself"
+            "expression has functions of several quadrature rules in it: give a Projection for each"
         )
     cell = V.mesh.basix_cell()
     exact = basix.make_quadrature(cell, 2 * element.degree)
