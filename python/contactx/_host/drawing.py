@@ -135,7 +135,6 @@ def gather(contacts: Sequence[Contact], scale: float) -> Scene | None:
             obstacles = {id(obstacle): obstacle for obstacle in masters if obstacle is not None}
             rigid = [_rigid(obstacle, x[:, : halo.gdim]) for obstacle in obstacles.values()]
             faces, edges, outline, facets = tables
-            rigid = [each for each in rigid if each.n_cells]
             scene = Scene(halo.gdim, x, pressure, faces, edges, outline, facets, rigid)
     return scene
 
@@ -193,14 +192,11 @@ def _rigid(obstacle: core.Obstacle, x: Array) -> Any:
     gdim = x.shape[1]
     low, high = x.min(axis=0), x.max(axis=0)
     around = _AROUND[gdim] * (high - low).max()
-    axes = [
-        np.linspace(a - around, b + around, _POINTS[gdim]) for a, b in zip(low, high, strict=True)
-    ]
-    spacing = [axis[1] - axis[0] for axis in axes] + [1.0] * (3 - gdim)
+    sizes, none = (high - low + 2 * around) / (_POINTS[gdim] - 1), [0.0] * (3 - gdim)
     grid = pyvista.ImageData(
-        dimensions=[len(axis) for axis in axes] + [1] * (3 - gdim),
-        spacing=spacing,
-        origin=[axis[0] for axis in axes] + [0.0] * (3 - gdim),
+        dimensions=[_POINTS[gdim]] * gdim + [1] * (3 - gdim),
+        spacing=[*sizes, *none],
+        origin=[*(low - around), *none],
     )
     grid.point_data["level"] = np.nan_to_num(obstacle.level(grid.points[:, :gdim].copy()), nan=1.0)
     if gdim == 2:
@@ -219,7 +215,9 @@ class View:
             camera: Direction from the bodies to the viewer in 3D.
         """
         flat = scenes[0].gdim == 2
-        towards = np.array((0, 0, 1) if flat else camera or _CAMERA, dtype=np.float64)
+        towards = np.array(
+            (0, 0, 1) if flat else _CAMERA if camera is None else camera, dtype=np.float64
+        )
         self.towards = towards / np.linalg.norm(towards)
         # The last axis points up, unless one looks along it
         up = np.eye(3)[1 if abs(self.towards[2]) > 0.95 else 2]
@@ -281,7 +279,8 @@ def draw(
         if flat:
             rigid = rigid.clip("-y", origin=(0, view.bottom, 0))
             rigid = rigid.translate(-_BEFORE * view.size.max() * view.towards)
-        plotter.add_mesh(rigid, color=_RIGID, lighting=not flat, opacity=1.0 if flat else 0.5)
+        if rigid.n_cells:
+            plotter.add_mesh(rigid, color=_RIGID, lighting=not flat, opacity=1.0 if flat else 0.5)
     bodies = pyvista.PolyData.from_regular_faces(scene.x, scene.faces)
     # In 3D one looks through the front into the bodies, where the pressures are
     look: dict[str, Any] = {} if flat else {"culling": "front", "ambient": 0.55, "diffuse": 0.5}
