@@ -11,6 +11,7 @@
 #include <contactx_dolfinx/forms.h>
 #include <contactx_dolfinx/obstacles.h>
 #include <contactx_dolfinx/snes.h>
+#include <contactx_dolfinx/vtk_output.h>
 #include <cstdio>
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
@@ -429,6 +430,9 @@ int main(int argc, char* argv[])
             [&] { falling->step(0, solver); });
     velocity->x()->array()[0] = NAN;
     refuses("velocity is not finite", [&] { falling->step(1, solver); });
+
+    refuses("the path of VTKOutput is run.xdmf: give a name that ends in .pvd",
+            [] { cx::VTKOutput(MPI_COMM_WORLD, "run.xdmf"); });
   }
   if (failures == 0 and dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
     std::printf("all refused\n");

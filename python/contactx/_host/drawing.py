@@ -229,7 +229,10 @@ class View:
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
         self.depth = high[2] - low[2]
         self.size = high[:2] - low[:2]
-        width, height = self.size + 2 * _MARGIN * self.size.max()
+        margin = _MARGIN * self.size.max()
+        # Height of the largest pressure, for which there is room
+        self.strip = _HEIGHT * np.sqrt(np.prod(self.size + margin)) if flat else 0.0
+        width, height = self.size + 2 * max(margin, self.strip)
         # Length of a pixel
         rows = int(np.clip(_WIDTH * height / width, _LOWEST, _HIGHEST))
         self.pixel = max(width / _WIDTH, height / rows)
@@ -376,7 +379,7 @@ def _strips(scene: Scene, view: View, largest: float) -> Any:
         np.add.at(normal, facets[:, k], outward)
     nodes = np.unique(facets)
     normal[nodes] /= np.linalg.norm(normal[nodes], axis=1)[:, None]
-    height = _HEIGHT * np.sqrt(np.prod(view.size + _MARGIN * view.size.max())) / largest
+    height = view.strip / largest
     # Before edges and outlines
     foot = scene.x + _BEFORE * view.size.max() * view.towards
     top = foot + height * np.abs(scene.pressure)[:, None] * normal
