@@ -23,7 +23,6 @@ from contactx.laws import FrictionLaw
 from contactx.obstacles import Cylinder, LevelSet, Plane, Sphere
 from contactx.output import CSVOutput, VTKOutput
 from contactx.penetration import FluidPenetration
-from contactx.pictures import animate
 from contactx.problem import ContactProblem
 from contactx.report import Report
 from contactx.steps import LoadSteps
