@@ -85,6 +85,7 @@ void slave_nodes(py::module_& m);
 void contact(py::module_& m);
 void results(py::module_& m);
 void parallel(py::module_& m);
+void checkpoint(py::module_& m);
 void master(py::module_& m);
 void bodies(py::module_& m);
 void mesh(py::module_& m);

@@ -28,4 +28,5 @@ PYBIND11_MODULE(cpp, m)
   contactx_bindings::audit(m);
   contactx_bindings::problem(m);
   contactx_bindings::dynamics(m);
+  contactx_bindings::checkpoint(m);
 }

@@ -152,6 +152,11 @@ PythonNodes::PythonNodes(const py::object& adapter)
 {
 }
 
+std::unique_ptr<Ranks> contactx_bindings::make_ranks(py::object adapter)
+{
+  return std::make_unique<PythonRanks>(std::move(adapter));
+}
+
 void contactx_bindings::parallel(py::module_& m)
 {
   py::class_<NodeMap, std::shared_ptr<NodeMap>>(

@@ -15,4 +15,8 @@ class PythonNodes final : public contactx::mesh::Halo
 public:
   explicit PythonNodes(const pybind11::object& adapter);
 };
+
+/// @brief Ranks of an object of Python, with `rank`, `size` and the methods
+/// that contactx/_host/parallel/mpi_host.py describes. It is kept alive.
+std::unique_ptr<contactx::mesh::Ranks> make_ranks(pybind11::object adapter);
 } // namespace contactx_bindings

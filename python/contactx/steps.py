@@ -21,7 +21,6 @@ from rich.table import Table
 
 from contactx import cpp as core
 from contactx._host.callbacks import Interrupts
-from contactx._host.checkpoint import archive
 from contactx._host.checkpoint.checkpoint import Checkpoint
 from contactx._host.checkpoint.snapshot import Snapshot
 from contactx._host.checks import check_switch, described, is_number
@@ -178,15 +177,14 @@ class LoadSteps:
             ValueError: If the path is a folder, or on several ranks a history is of a space that
                 cannot be saved.
         """
-        if self._state is None:
-            self._state = Checkpoint(self._problem, self._history)
-        steps = {"steps: given": np.array(self._plan.given), "steps: place": self._plan.place}
-        steps["steps: table"] = np.array(self._rows, dtype=np.float64).reshape(-1, len(Row._fields))
-        state = self._state.save()
         with agreed(self._comm):
             if self._comm.rank == 0:
                 make_folder("path", Path(path))
-                archive.write(Path(path), steps | state)
+        if self._state is None:
+            self._state = Checkpoint(self._problem, self._history)
+        table = np.array(self._rows, dtype=np.float64).ravel()
+        steps = {"given": np.array(self._plan.given), "place": self._plan.place, "table": table}
+        self._state.write(Path(path), steps)
 
     def __iter__(self) -> Iterator[Step]:
         """Take the steps that are left.
@@ -318,28 +316,29 @@ class LoadSteps:
 
     def _restart(self, path: Path) -> None:
         assert self._state is not None
-        with agreed(self._comm):
-            saved = archive.read(path) if self._comm.rank == 0 else {}
-        steps = {n: saved.pop(n) for n in list(saved) if n.startswith("steps: ")}
-        steps = self._comm.bcast(steps)
         before = self._snapshot()
         try:
-            plan = copy(self._plan)
-            plan.load(steps["steps: given"], steps["steps: place"])
-            self._problem.find_rigid_modes()
-            self._state.load(saved)
-        except (KeyError, ValueError) as error:
-            raise ValueError(
-                f"cannot restart from {path}: {error}. Give a checkpoint of this problem, or leave "
-                "restart out (manual: errors/restart-refused)"
-            ) from error
-        try:
+            try:
+                state = self._state.read(path)
+                steps, plan = state.steps, copy(self._plan)
+                if "place" not in steps:
+                    raise ValueError("it has no load steps")
+                plan.load(steps["given"], steps["place"])
+                self._problem.find_rigid_modes()
+                self._state.apply(state)
+            except ValueError as error:
+                raise ValueError(
+                    f"cannot restart from {path}: {error}. Give a checkpoint of this problem, or "
+                    "leave restart out (manual: errors/restart-refused)"
+                ) from error
             with agreed(self._comm):
                 self._update(plan.t)
         except BaseException:
             before.restore()
             raise
-        self._rows = [Row(*row) for row in steps["steps: table"].tolist()]
+        # A program in C++ writes no table
+        table = steps.get("table", np.zeros(0)).reshape(-1, len(Row._fields))
+        self._rows = [Row(*row) for row in table.tolist()]
         self._plan = plan
 
 

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx._host.checkpoint import archive
+from contactx._host.checkpoint.shared_file import SharedFile
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+from inputs import archive
 from scenes import Blocks
 from scenes.steps import QUICK, SCENES, Sheared, SlidingBlocks, check_restart, run
 
@@ -20,7 +21,7 @@ from scenes.steps import QUICK, SCENES, Sheared, SlidingBlocks, check_restart, r
 # The others are in tests/verify
 @pytest.mark.parametrize("name", QUICK)
 def test_three_steps_and_three_are_six(name, tmp_path):
-    check_restart(name, tmp_path / "run.npz")
+    check_restart(name, tmp_path / "run.state")
 
 
 @pytest.mark.parametrize(
@@ -28,7 +29,7 @@ def test_three_steps_and_three_are_six(name, tmp_path):
 )
 def test_results_are_there_at_once(name, tmp_path):
     """They are computed anew from the state, which may round in another way."""
-    file, scene, other = tmp_path / "run.npz", SCENES[name](), SCENES[name]()
+    file, scene, other = tmp_path / "run.state", SCENES[name](), SCENES[name]()
     _, steps = run(scene, until=3)
     steps.save(file)
     cx.LoadSteps(other.problem, 6, other.update, history=other.history, restart=file)
@@ -44,10 +45,10 @@ def test_cut_steps_are_gone_on_from_as_they_were(tmp_path):
     straight, other, last = (Sheared(far=12.0) for _ in range(3))
     t = [step.t for step in straight.steps(1, easy=0)]
     assert len(t) == 15
-    for step in other.steps(1, easy=0, checkpoint=tmp_path / "run.npz"):
+    for step in other.steps(1, easy=0, checkpoint=tmp_path / "run.state"):
         if step.index == 4:
             break
-    steps = last.steps(1, easy=0, restart=tmp_path / "run.npz")
+    steps = last.steps(1, easy=0, restart=tmp_path / "run.state")
     assert steps.t == t[2]
     assert last.contact.force == pytest.approx(
         np.array([0.0, last.contact.multiplier @ last.contact.area])
@@ -64,9 +65,9 @@ def test_a_restart_brings_results_and_switches_back(tmp_path):
     next(iter(steps))
     scene.history.x.array[:] = 5
     scene.contact.active = False
-    steps.save(tmp_path / "half.npz")
+    steps.save(tmp_path / "half.state")
     other = Sheared(far=0.1)
-    assert other.steps(2, restart=tmp_path / "half.npz").t == 0.5
+    assert other.steps(2, restart=tmp_path / "half.state").t == 0.5
     assert not other.contact.active
     assert other.contact.force[1] > 0
     # The tractions are computed anew
@@ -80,10 +81,10 @@ def test_a_restart_brings_results_and_switches_back(tmp_path):
 
 def test_a_run_that_has_ended_has_nothing_left(tmp_path):
     scene = Sheared(far=0.1)
-    for _ in scene.steps(2, checkpoint=tmp_path / "end.npz"):
+    for _ in scene.steps(2, checkpoint=tmp_path / "end.state"):
         pass
     other = Sheared(far=0.1)
-    steps = other.steps(2, restart=tmp_path / "end.npz")
+    steps = other.steps(2, restart=tmp_path / "end.state")
     assert list(steps) == []
     assert other.calls == [1.0]
     assert other.u.x.array.tobytes() == scene.u.x.array.tobytes()
@@ -91,7 +92,7 @@ def test_a_run_that_has_ended_has_nothing_left(tmp_path):
 
 def test_the_file_has_what_the_body_did(tmp_path):
     """It is written when the body has ended, and not when the body was left by an error."""
-    file, scene = tmp_path / "new" / "run.npz", Sheared(far=0.1)
+    file, scene = tmp_path / "new" / "run.state", Sheared(far=0.1)
     with pytest.raises(ZeroDivisionError):
         for step in scene.steps(4, checkpoint=file):
             scene.history.x.array[:] = step.index
@@ -106,26 +107,25 @@ def test_the_file_has_what_the_body_did(tmp_path):
 
 @pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "No space left"), KeyboardInterrupt()])
 def test_the_last_whole_file_survives(monkeypatch, tmp_path, error):
-    file, scene = tmp_path / "run.npz", Sheared(far=0.1)
+    file, scene = tmp_path / "run.state", Sheared(far=0.1)
     steps = scene.steps(4)
     next(iter(steps))
     steps.save(file)
     before = file.read_bytes()
 
-    def half(out, **arrays):
-        out.write(before[:300])
+    def half(self, at, values):
         raise error
 
-    monkeypatch.setattr(np, "savez", half)
+    monkeypatch.setattr(SharedFile, "write", half)
     with pytest.raises(type(error)):
         steps.save(file)
     assert file.read_bytes() == before
-    assert os.listdir(tmp_path) == ["run.npz"]
+    assert os.listdir(tmp_path) == ["run.state"]
 
 
 @pytest.fixture
 def file(tmp_path):
-    path, scene = tmp_path / "whole.npz", Sheared(far=0.1)
+    path, scene = tmp_path / "whole.state", Sheared(far=0.1)
     steps = scene.steps(2)
     next(iter(steps))
     steps.save(path)
@@ -144,17 +144,25 @@ def refused(file, message, scene=None, **options):
 
 
 def test_files_of_other_kinds(file, tmp_path):
-    other = tmp_path / "other.npz"
-    np.savez(other, u=np.zeros(3))
-    refused(other, "holds arrays, but is no checkpoint of contactx")
-    np.savez(other, contactx_checkpoint=np.array(1))
-    refused(other, "has format 1, but this contactx reads 5")
+    """Also of older versions, which say what they are by their first bytes."""
+    np.savez(tmp_path / "old.npz", contactx_checkpoint=np.array(5))
+    refused(tmp_path / "old.npz", "of an older contactx for Python.*, and contactx .* reads format")
+    old = tmp_path / "old.h5"
+    old.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    refused(old, "of an older contactx for C\\+\\+.* finish that run with the contactx that began it")
+    data = bytearray(file.read_bytes())
+    data[24:30], data[48] = b"9.9.9\0", 7
+    file.write_bytes(data)
+    refused(file, r"contactx 9\.9\.9 wrote it in format 7, and contactx .* reads format 6")
 
 
 def test_files_of_other_problems(file, tmp_path):
-    refused(file, "it holds 1 functions of history, but there are 0 here", history=[])
-    scene = Sheared()
-    refused(file, r"'history 0' is float64 of shape \(18,\) in the file", history=[scene.u])
+    refused(file, "'history 0' is only in the file: were contacts", history=[])
+    scene = Sheared(far=0.1)
+    message = "'history 0' has 1 values of type f8 a row in the file, but 2 of type f8 here"
+    refused(file, message, scene, history=[scene.u])
+    other = fem.Function(scene.contact.pressure.function_space)
+    refused(file, "'history 0' has 18 rows in the file, but 16 here", scene, history=[other])
 
     scene = Blocks(CellType.triangle)
     problem = scene.problem(scene.contact())
@@ -164,36 +172,26 @@ def test_files_of_other_problems(file, tmp_path):
     assert not scene.u.x.array.any()
 
     scene = SlidingBlocks(CellType.triangle, sliding="small")
-    run(scene, until=2, checkpoint=tmp_path / "blocks.npz")
-    with pytest.raises(ValueError, match=r"'surface 0: sliding' is another one here"):
-        run(SlidingBlocks(CellType.triangle), restart=tmp_path / "blocks.npz")
+    run(scene, until=2, checkpoint=tmp_path / "blocks.state")
+    with pytest.raises(ValueError, match="'contact 0: identity' is another one here"):
+        run(SlidingBlocks(CellType.triangle), restart=tmp_path / "blocks.state")
     moved = SlidingBlocks(CellType.triangle, sliding="small")
     moved.u.function_space.mesh.geometry.x[3] += 1e-3
     with pytest.raises(ValueError, match=r"'mesh: coordinates' is another one here"):
-        run(moved, restart=tmp_path / "blocks.npz")
-
-
-def changed(file, **values):
-    """The file with other arrays, by the last word of their names."""
-    arrays = archive.read(file)
-    for word, value in values.items():
-        name = next(n for n in arrays if n.split()[-1] == word)
-        arrays[name] = np.full_like(arrays[name], value)
-    archive.write(file, arrays)
-    return file
+        run(moved, restart=tmp_path / "blocks.state")
 
 
 def test_values_that_cannot_be(file, tmp_path):
-    refused(changed(file, u=np.nan), r"'u' is not finite at 32 dofs")
-    refused(changed(file, u=0.0, multiplier=np.inf), "'contact 0: multiplier' is not finite")
+    refused(archive.change(file, u=np.nan), r"'u' is not finite at 32 dofs")
+    refused(archive.change(file, u=0.0, multiplier=np.inf), "'contact 0: multiplier' is not finite")
 
 
 def test_pairs_that_cannot_be(tmp_path):
-    file = tmp_path / "blocks.npz"
+    file = tmp_path / "blocks.state"
     run(SlidingBlocks(CellType.triangle), until=2, checkpoint=file)
     scene = SlidingBlocks(CellType.triangle)
     with pytest.raises(ValueError, match="a pair with a facet that does not exist"):
-        run(scene, restart=changed(file, master_facet_nodes=99))
+        run(scene, restart=archive.change(file, master_facet_nodes=99))
     assert not scene.u.x.array.any()
 
 

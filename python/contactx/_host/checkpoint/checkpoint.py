@@ -1,183 +1,159 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""State of a problem as named arrays, and back, on any number of ranks."""
+"""State of a problem in a file, and back, on any number of ranks."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
-
-from mpi4py import MPI
 
 import numpy as np
 import numpy.typing as npt
 
+import basix.ufl
 from contactx import cpp as core
-from contactx._host.checkpoint.rows import FunctionRows, Rows, cell_nodes
-from contactx._host.discrete_contact import DiscreteContact
-from contactx._host.nodes import reference_positions
-from contactx._host.parallel.mpi_host import original_nodes
-from contactx._host.parallel.reduce import agreed
+from contactx._host.checkpoint.shared_file import opened, replaced
+from contactx._host.nodes import original_nodes, reference_positions
+from contactx._host.parallel.mpi_host import MPIRanks
 from contactx.problem import ContactProblem
 from dolfinx import fem
 
-type Arrays = dict[str, npt.NDArray[Any]]
-
-# Starts of the names of arrays that stay the same as long as a problem is the same
-_INVARIANT_PREFIXES = ("mesh: ", "surface ")
+type Array = npt.NDArray[np.float64]
+type Numbers = npt.NDArray[np.int64]
 
 
 class Checkpoint:
-    """Brings the state of a problem to rank 0, in an order of the mesh as it was made, and back."""
+    """State of a problem: see ``problem/checkpoint.h``. All ranks must take part in all of it."""
 
     def __init__(self, problem: ContactProblem, history: Sequence[fem.Function]):
-        """Find the order; all ranks must take part.
+        """Find the rows of all functions.
 
         Args:
             problem: The problem.
             history: Functions that belong to its state.
 
         Raises:
-            ValueError: If such a function is of a space that several ranks cannot save.
+            ValueError: If such a function is of a space that cannot be saved.
         """
         V = problem.displacement.function_space
         self._problem = problem
-        self._history = list(history)
-        self._comm: MPI.Comm = V.mesh.comm
-        self._owned: int = V.dofmap.index_map.size_local
-        self._u = FunctionRows(problem.displacement, "u")
-        self._functions = [FunctionRows(f, f"history[{k}]") for k, f in enumerate(history)]
-        self._discrete_contacts: list[DiscreteContact] = [c.discrete for c in problem.contacts]
+        self._comm = V.mesh.comm
+        names = ["u", *(f"history {k}" for k in range(len(history)))]
+        self._functions = [problem.displacement, *history]
+        keys, self._dofs = zip(*map(_keyed_dofs, self._functions, names), strict=True)
+        discrete = [contact.discrete for contact in problem.contacts]
         # What slip starts from; a problem of one's own may have no contacts
-        self._nodes: core.Halo | None = next((i.halo.nodes for i in self._discrete_contacts), None)
-        original = original_nodes(V)
-        self._slaves = [
-            Rows(self._comm, original[i.slaves][:, None]) for i in self._discrete_contacts
-        ]
-        self._cells = Rows(self._comm, cell_nodes(V)).digest
+        halo = next((contact.halo.nodes for contact in discrete), None)
+        self._core = core.Checkpoint(
+            MPIRanks(self._comm),
+            halo,
+            discrete,
+            [(n, k, d.shape[1]) for n, k, d in zip(names, keys, self._dofs, strict=True)],
+            reference_positions(V)[: V.dofmap.index_map.size_local],
+            _cell_nodes(V),
+        )
 
-    def save(self) -> Arrays:
-        """Copy all that the next step's answer depends on; all ranks must take part.
-
-        Returns:
-            Arrays of all ranks by their names; none but on rank 0.
-        """
-        arrays = self._identity() | {"u": self._u.gather()}
-        if self._nodes is not None:
-            arrays["start"] = self._u.rows.gather(self._nodes.start[: self._owned])
-            arrays["before"] = self._u.rows.gather(self._nodes.before)
-        for k, discrete in enumerate(self._discrete_contacts):
-            kinds = discrete.saved_rows
-            for name, values in discrete.save().items():
-                arrays[f"contact {k}: {name}"] = self._gather(kinds[name], k, values)
-        arrays |= {f"history {k}": f.gather() for k, f in enumerate(self._functions)}
-        return {n: a for n, a in arrays.items() if a is not None and self._comm.rank == 0}
-
-    def load(self, saved: Mapping[str, npt.NDArray[Any]]) -> None:
-        """Go on from what ``save`` gave for the same problem, be it another object.
-
-        All ranks must take part.
+    def write(self, path: Path, steps: Mapping[str, npt.NDArray[Any]]) -> None:
+        """Write all that the next step's answer depends on.
 
         Args:
-            saved: Arrays of all ranks by their names; only those of rank 0 count.
+            path: The file; one of this name is replaced when the new one is whole.
+            steps: Numbers that are the same on all ranks, by their names.
 
         Raises:
-            ValueError: If they are of another problem or not finite; nothing has changed.
+            OSError: If it cannot be written; the old file is still there.
         """
-        present = self.save()
-        with agreed(self._comm):
-            if self._comm.rank == 0:
-                _check_fit(saved, present)
-        before = self._problem.snapshot(self._history)
-        try:
-            self._u.scatter(saved.get("u"))
-            self._problem.update_ghosts()
-            if self._nodes is not None:
-                self._nodes.set_start(self._u.rows.scatter(saved.get("start")))
-                self._nodes.set_before(self._u.rows.scatter(saved.get("before")))
-            for k, function in enumerate(self._functions):
-                function.scatter(saved.get(f"history {k}"))
-            for k, discrete in enumerate(self._discrete_contacts):
-                discrete.load(
-                    {
-                        name: self._scatter(kind, k, saved.get(f"contact {k}: {name}"))
-                        for name, kind in discrete.saved_rows.items()
-                    }
-                )
-                self._problem.contacts[k].fields.evaluate()
-        except BaseException:
-            before.restore()
-            raise
+        for function in self._functions[1:]:
+            # Rows of cells may have dofs of other ranks
+            function.x.scatter_forward()
+        values = [f.x.array[d] for f, d in zip(self._functions, self._dofs, strict=True)]
+        with replaced(self._comm, path) as file:
+            self._core.write(file, values, steps)
 
-    def _identity(self) -> dict[str, npt.NDArray[Any] | None]:
-        """Arrays that tell a problem from others to which its state would not fit."""
-        V = self._problem.displacement.function_space
-        x = reference_positions(V)[: self._owned]
-        arrays = {"mesh: coordinates": self._u.rows.gather(x), "mesh: cells": self._cells}
-        arrays |= {f"history {k}: rows": f.rows.digest for k, f in enumerate(self._functions)}
-        for k, discrete in enumerate(self._discrete_contacts):
-            arrays[f"surface {k}: slaves"] = self._slaves[k].digest
-            arrays[f"surface {k}: sliding"] = np.array(discrete.sliding)
-            for name, numbers in discrete.master.identity().items():
-                arrays[f"surface {k}: master {name}"] = Rows(self._comm, numbers).digest
-        return arrays
+    def read(self, path: Path) -> core.CheckpointState:
+        """Read what ``write`` has written for the same problem, be it another object.
 
-    def _gather(self, kind: str, contact: int, values: npt.NDArray[Any]) -> npt.NDArray[Any] | None:
-        if kind == "global":
-            return values
-        if kind == "slave":
-            return self._slaves[contact].gather(values)
-        return self._u.rows.gather(values[: self._owned])
+        Args:
+            path: The file.
 
-    def _scatter(
-        self, kind: str, contact: int, values: npt.NDArray[Any] | None
-    ) -> npt.NDArray[Any]:
-        if kind == "global":
-            same: npt.NDArray[Any] = self._comm.bcast(values)
-            return same
-        rows = self._slaves[contact] if kind == "slave" else self._u.rows
-        return rows.scatter(values)
+        Raises:
+            OSError: If it is not there, or cannot be read.
+            ValueError: If it is of another problem, damaged or not finite.
+        """
+        with opened(self._comm, path) as file:
+            return self._core.read(file)
+
+    def apply(self, state: core.CheckpointState) -> None:
+        """Go on from a state.
+
+        Args:
+            state: What ``read`` gave.
+
+        Raises:
+            ValueError: If it does not fit the contacts; some of the state may have changed.
+        """
+        for f, dofs, values in zip(self._functions, self._dofs, state.functions, strict=True):
+            f.x.array[dofs] = values.reshape(dofs.shape)
+            f.x.scatter_forward()
+        self._problem.update_ghosts()
+        self._core.apply(state)
+        for contact in self._problem.contacts:
+            contact.fields.evaluate()
 
 
-def _check_fit(saved: Mapping[str, npt.NDArray[Any]], present: Arrays) -> None:
-    """Check that saved arrays are those of a problem.
+def _keyed_dofs(function: fem.Function, name: str) -> tuple[Numbers, Numbers]:
+    """Rows of a function by their numbers in the mesh as it was made.
+
+    Lagrange spaces of degree 1 or 2 have a row a node, others a row a cell.
 
     Args:
-        saved: Arrays of a file.
-        present: The same of the problem as it is.
+        function: The function.
+        name: What it is called in errors.
+
+    Returns:
+        Keys of this rank's rows, shape (n, k), and their dofs, shape (n, width).
 
     Raises:
-        ValueError: If they are of another problem or not finite.
+        ValueError: If its values are not of double precision, or the order of its dofs in a cell
+            changes from rank to rank, on more than one.
     """
-    for kind, what in (("contact", "contacts"), ("history", "functions of history")):
-        there, here = (
-            len({name.split(":")[0] for name in arrays if name.startswith(f"{kind} ")})
-            for arrays in (saved, present)
+    V = function.function_space
+    element, size = V.ufl_element(), V.dofmap.bs
+    if function.x.array.dtype != np.float64:
+        raise ValueError(
+            f"{name} has values of type {function.x.array.dtype}: give a function of float64"
         )
-        if there != here:
-            raise ValueError(f"it holds {there} {what}, but there are {here} here")
-    for name in sorted(saved.keys() ^ present.keys()):
-        side = "only in the file" if name in saved else "missing in the file"
-        raise ValueError(f"{name!r} is {side}: were the options of the contacts others?")
-    for name, array in present.items():
-        other = saved[name]
-        if other.shape != array.shape or other.dtype.kind != array.dtype.kind:
+    if not isinstance(element, basix.ufl._MixedElement) and (
+        element.element_family == basix.ElementFamily.P
+        and not element.discontinuous
+        and element.degree in (1, 2)
+    ):
+        keys = original_nodes(V)[: V.dofmap.index_map.size_local, None]
+        blocks: npt.NDArray[Any] = np.arange(len(keys))[:, None]
+    else:
+        is_fixed = _has_fixed_order(element) and not V.element.needs_dof_transformations
+        if V.mesh.comm.size > 1 and not is_fixed:
             raise ValueError(
-                f"{name!r} is {other.dtype} of shape {other.shape} in the file, but {array.dtype} "
-                f"of shape {array.shape} here: is it of another mesh or other surfaces?"
+                f"{name} is of {element}, whose dofs change their order from rank to rank: take a "
+                "Lagrange space of degree 1 or 2, a mixed one of such, a quadrature or a "
+                "discontinuous space, or one rank"
             )
-    for name, array in present.items():
-        if name == "mesh: coordinates":
-            # Another machine may round them differently
-            same = np.allclose(saved[name], array, rtol=0, atol=1e-12 * np.ptp(array))
-        elif name.startswith(_INVARIANT_PREFIXES) or name.endswith(": rows"):
-            same = np.array_equal(saved[name], array)
-        else:
-            continue
-        if not same:
-            raise ValueError(f"{name!r} is another one here: restart the same problem")
-    for name, array in saved.items():
-        if name in ("u", "start", "before") or name.endswith(": multiplier"):
-            bad = np.count_nonzero(~np.isfinite(array))
-            if bad:
-                raise ValueError(f"{name!r} is not finite at {bad} dofs")
+        keys = _cell_nodes(V)
+        blocks = V.dofmap.list[: len(keys)].astype(np.int64)
+    return keys, (blocks[:, :, None] * size + np.arange(size)).reshape(len(keys), -1)
+
+
+def _cell_nodes(V: fem.FunctionSpace) -> Numbers:
+    """Nodes of each owned cell by their numbers in the mesh as it was made, shape (n, k)."""
+    domain = V.mesh
+    owned = domain.topology.index_map(domain.topology.dim).size_local
+    nodes: Numbers = domain.geometry.input_global_indices[domain.geometry.dofmaps[0][:owned]]
+    return nodes
+
+
+def _has_fixed_order(element: Any) -> bool:
+    """Whether no edge or face has several dofs, which its direction would tell apart."""
+    if element.sub_elements:
+        return all(map(_has_fixed_order, element.sub_elements))
+    return all(len(dofs) <= 1 for entities in element.entity_dofs[:-1] for dofs in entities)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Callable, Mapping
+from itertools import cycle
 from typing import Any
 
 from mpi4py import MPI
@@ -22,50 +23,25 @@ type Array = npt.NDArray[np.float64]
 _TAG = 7090
 # Tags in turn, so that a message never ends up in the exchange before its own
 _FIRST, _COUNT = 7100, 16
+_TAGS = MPI.Comm.Create_keyval()
 _OPERATIONS = {"sum": MPI.SUM, "least": MPI.MIN, "largest": MPI.MAX}
 
 
-class MPIHost:
-    """Ranks and nodes, as the core's ``Ranks`` and ``HaloAdapter`` describe them.
+class MPIRanks:
+    """Ranks, as the core's ``Ranks`` describes them.
 
     Attributes:
         comm: Communicator.
         rank: Number of this rank.
         size: Number of ranks.
-        num_owned: Number of the bulk's nodes that this rank owns.
-        num_bulk: Number of the bulk's nodes here, ghosts included.
-        full_map: Index map of all nodes, over the ranks.
-        index_map: The same on this rank alone, by which forms are assembled.
-        displacement: Displacement of all nodes, as of the last ``update_ghosts``.
-        space: Space of the displacement.
     """
 
-    displacement: la.Vector
-
-    def __init__(self, u: fem.Function, X: Array):
-        """Start with the bulk's nodes alone.
-
-        Args:
-            u: Displacement, in a linear Lagrange space.
-            X: Reference positions of its nodes, ghosts included, shape (num_bulk, gdim).
-        """
-        V = self.space = u.function_space
-        self._u, self._X = u, X
-        self._bulk_map = self.full_map = V.dofmap.index_map
-        self.comm: MPI.Comm = V.mesh.comm
-        self.rank: int = self.comm.rank
-        self.size: int = self.comm.size
-        self._gdim = X.shape[1]
-        self.num_owned: int = self.full_map.size_local
-        self.num_bulk: int = self.full_map.size_local + self.full_map.num_ghosts
-        self._exchange = Exchange(self.comm)
-        self._observer: weakref.WeakMethod[Callable[[], None]] | None = None
-        none = np.zeros(0, dtype=np.int64)
-        self.set_ghosts(none, none.astype(np.int32))
-
-    def on_change(self, observer: Callable[[], None]) -> None:
-        """Call a method, whose object is not kept alive, whenever the nodes have changed."""
-        self._observer = weakref.WeakMethod(observer)
+    def __init__(self, comm: MPI.Comm):
+        """Take the ranks of a communicator."""
+        self.comm: MPI.Comm = comm
+        self.rank: int = comm.rank
+        self.size: int = comm.size
+        self._exchange = Exchange(comm)
 
     def reduce(self, values: npt.NDArray[Any], how: str) -> None:
         """Reduce numbers over the ranks, in place."""
@@ -85,6 +61,43 @@ class MPIHost:
         """Do something, and raise what is raised on any rank on all of them."""
         with agreed(self.comm):
             work()
+
+
+class MPIHost(MPIRanks):
+    """Ranks and nodes, as the core's ``Ranks`` and ``HaloAdapter`` describe them.
+
+    Attributes:
+        num_owned: Number of the bulk's nodes that this rank owns.
+        num_bulk: Number of the bulk's nodes here, ghosts included.
+        full_map: Index map of all nodes, over the ranks.
+        index_map: The same on this rank alone, by which forms are assembled.
+        displacement: Displacement of all nodes, as of the last ``update_ghosts``.
+        space: Space of the displacement.
+    """
+
+    displacement: la.Vector
+
+    def __init__(self, u: fem.Function, X: Array):
+        """Start with the bulk's nodes alone.
+
+        Args:
+            u: Displacement, in a linear Lagrange space.
+            X: Reference positions of its nodes, ghosts included, shape (num_bulk, gdim).
+        """
+        V = self.space = u.function_space
+        super().__init__(V.mesh.comm)
+        self._u, self._X = u, X
+        self._bulk_map = self.full_map = V.dofmap.index_map
+        self._gdim = X.shape[1]
+        self.num_owned: int = self.full_map.size_local
+        self.num_bulk: int = self.full_map.size_local + self.full_map.num_ghosts
+        self._observer: weakref.WeakMethod[Callable[[], None]] | None = None
+        none = np.zeros(0, dtype=np.int64)
+        self.set_ghosts(none, none.astype(np.int32))
+
+    def on_change(self, observer: Callable[[], None]) -> None:
+        """Call a method, whose object is not kept alive, whenever the nodes have changed."""
+        self._observer = weakref.WeakMethod(observer)
 
     def bulk(self) -> dict[str, Any]:
         """The bulk's nodes on this rank, as the core's ``BulkNodes`` describe them."""
@@ -181,7 +194,11 @@ class Exchange:
             comm: Communicator.
         """
         self.comm = comm
-        self._turn = 0
+        # Of all exchanges of a communicator, which is where MPI keeps them
+        self._tags = comm.Get_attr(_TAGS)
+        if self._tags is None:
+            self._tags = cycle(range(_FIRST, _FIRST + _COUNT))
+            comm.Set_attr(_TAGS, self._tags)
 
     def __call__(self, outgoing: Mapping[int, bytes]) -> dict[int, bytes]:
         """Send bytes and receive those of others; all ranks must take part.
@@ -192,8 +209,7 @@ class Exchange:
         Returns:
             Bytes by the rank that sent them, in ascending order.
         """
-        comm, tag = self.comm, _FIRST + self._turn
-        self._turn = (self._turn + 1) % _COUNT
+        comm, tag = self.comm, next(self._tags)
         received = {}
         sending = []
         for rank, data in outgoing.items():
