@@ -187,5 +187,10 @@ for ranks in 1 2; do
 			|| "$python" "$source/tests/dolfinx_cpp/compare.py" $name.$ranks $name.log \
 			|| fail "$name prints other lines than Python on $ranks ranks, see $folder/run"
 	done
+	# Python goes on from what the programs have written
+	"$python" "$source/tests/dolfinx_cpp/fields.py" $ranks > restarted.$ranks
+	sed -n '0~3p' fields.log > restarted.log
+	"$python" "$source/tests/dolfinx_cpp/compare.py" restarted.$ranks restarted.log \
+		|| fail "Python goes on from a checkpoint of $ranks ranks to other lines, see $folder/run"
 done
 finish "compiled, and the same digits as in Python on one rank and on two (DOLFINx $kept)"

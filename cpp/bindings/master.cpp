@@ -12,20 +12,6 @@ using namespace contactx::contact;
 
 namespace
 {
-const char* name_of(RowKind kind)
-{
-  return kind == RowKind::slave  ? "slave"
-         : kind == RowKind::node ? "node"
-                                 : "global";
-}
-
-template <class T>
-std::vector<T> values_of(const py::array& a)
-{
-  const auto values = py::array_t<T, py::array::c_style>::ensure(a);
-  return {values.data(), values.data() + values.size()};
-}
-
 /// Pairs with copies of the arrays, which say by their shapes what they are.
 contactx::kernel::Pairs pairs_of(const Array<std::int32_t>& slaves,
                                  const Array<std::int32_t>& nodes,
@@ -84,41 +70,6 @@ py::dict contactx_bindings::to_dict(const std::vector<Saved>& saved)
               {static_cast<py::ssize_t>(values.size()) / s.width, s.width});
         },
         s.values);
-  return result;
-}
-
-py::dict contactx_bindings::rows_of(const std::vector<Saved>& saved)
-{
-  py::dict kinds;
-  for (const Saved& s : saved)
-    kinds[py::str(s.name)] = name_of(s.rows);
-  return kinds;
-}
-
-std::vector<Saved> contactx_bindings::from_dict(const py::dict& saved)
-{
-  std::vector<Saved> result;
-  for (const auto& [name, value] : saved)
-  {
-    const auto a = py::cast<py::array>(value);
-    Saved s{py::cast<std::string>(name),
-            RowKind::global,
-            a.ndim() < 2 ? 0 : static_cast<int>(a.shape(1)),
-            {}};
-    const std::string type = py::cast<std::string>(a.dtype().attr("name"));
-    if (type == "float64")
-      s.values = values_of<double>(a);
-    else if (type == "int8" or type == "bool")
-      s.values = values_of<std::int8_t>(a);
-    else if (type == "int32")
-      s.values = values_of<std::int32_t>(a);
-    else if (type == "int64")
-      s.values = values_of<std::int64_t>(a);
-    else
-      throw std::invalid_argument("the saved array " + s.name
-                                  + " has values of type " + type);
-    result.push_back(std::move(s));
-  }
   return result;
 }
 
@@ -257,8 +208,6 @@ void contactx_bindings::master(py::module_& m)
       .def("weights", &Master::weights)
       .def("area", [](const Master& self, const Array<double>& whole)
            { return array(self.area(view(whole))); })
-      .def("identity",
-           [](const Master& self) { return to_dict(self.identity()); })
       .def("distance", [](const Master& self, const Array<double>& x)
            { return self.distance(view(x)); })
       .def_property_readonly("frozen_pairs", [](const Master& self)

@@ -21,13 +21,8 @@ py::array_t<T> looking(const std::vector<T>& values,
   return a;
 }
 
-/// @brief Saved arrays by their names, and back.
+/// @brief Saved arrays by their names.
 py::dict to_dict(const std::vector<contactx::contact::Saved>& saved);
-std::vector<contactx::contact::Saved> from_dict(const py::dict& saved);
-
-/// @brief What the rows of saved arrays are, by the arrays' names: "slave",
-/// "node" or "global".
-py::dict rows_of(const std::vector<contactx::contact::Saved>& saved);
 
 /// @brief Pairs as a list of Python.
 py::list to_list(std::vector<contactx::kernel::Pairs> pairs);

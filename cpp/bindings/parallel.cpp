@@ -185,28 +185,6 @@ void contactx_bindings::parallel(py::module_& m)
           })
       .def("positions", [](const Halo& self)
            { return array(self.now()->x, {self.num_nodes(), self.gdim()}); })
-      .def_property_readonly(
-          "start", [](const Halo& self)
-          { return array(self.start()->u, {self.num_nodes(), self.gdim()}); })
-      .def_property_readonly("before",
-                             [](const Halo& self)
-                             {
-                               const auto& u = self.before();
-                               const int g = self.gdim();
-                               return array(
-                                   u, {static_cast<int>(u.size()) / g, g});
-                             })
-      .def(
-          "set_before",
-          [](Halo& self, const Array<double>& u)
-          {
-            const auto all = view(u);
-            self.set_before({all.begin(), all.end()});
-          },
-          py::arg("u"))
-      .def(
-          "set_start", [](Halo& self, const Array<double>& u)
-          { self.set_start(view(u)); }, py::arg("u"))
       .def(
           "numbers", [](const Halo& self, const Array<std::int32_t>& nodes)
           { return array(self.numbers(view(nodes))); }, py::arg("nodes"))

@@ -6,6 +6,7 @@
 #include "contact.h"
 #include "jacobian.h"
 #include <contactx/mesh/degenerate.h>
+#include <contactx/problem/checkpoint.h>
 #include <contactx/problem/problem.h>
 #include <contactx/solve/not_finite.h>
 #include <petscksp.h>
@@ -285,26 +286,15 @@ public:
   }
 
   /// @brief Go on from the state of another run, as a Checkpoint has it.
-  /// @param[in] start Displacements of the step's start
-  /// (shape=(num_displacements)).
-  /// @param[in] contacts State of each contact, see contactx::contact::save.
-  /// Functions have the values that they shall have.
+  /// @param[in] checkpoint Checkpoint of this problem.
+  /// @param[in] state The state; functions have their values of it.
   /// @throws std::invalid_argument on all ranks if they do not fit.
-  void take(std::vector<double> start, std::vector<double> before,
-            std::vector<std::vector<contactx::contact::Saved>> contacts)
+  void take(const contactx::problem::Checkpoint& checkpoint,
+            const contactx::problem::Checkpoint::State& state)
   {
-    contactx::problem::Snapshot::State state{.start = std::move(start),
-                                             .before = std::move(before),
-                                             .contacts = std::move(contacts)};
     _bulk->read();
-    const auto u = _bulk->displacements();
-    state.displacements.assign(u.begin(), u.end());
-    if (contactx::solve::Fields* fields = _bulk->fields())
-    {
-      const auto values = fields->values();
-      state.fields.assign(values.begin(), values.end());
-    }
-    _problem->snapshot(std::move(state)).restore();
+    checkpoint.apply(state);
+    _problem->update_results();
     pack();
     show();
   }

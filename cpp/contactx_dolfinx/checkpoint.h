@@ -4,11 +4,12 @@
 #pragma once
 
 #include "assembler.h"
-#include <cmath>
-#include <contactx/contact/contact_state.h>
-#include <dolfinx/io/HDF5Interface.h>
+#include "shared_file.h"
+#include <cerrno>
+#include <contactx/problem/checkpoint.h>
+#include <cstring>
 #include <filesystem>
-#include <map>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -17,9 +18,10 @@ namespace contactx_dolfinx
 /// @brief Writes the state of an Assembler to a file, from which another run
 /// goes on, on any number of ranks.
 ///
-/// The file is of HDF5, and each rank writes and reads its rows. They are known
-/// by the numbers of nodes and cells in the mesh as it was made: the other run
-/// must read the same mesh. All ranks must take part in everything.
+/// Each rank writes and reads its share of the rows. They are known by the
+/// numbers of nodes in the mesh as it was made: the other run must read the
+/// same mesh. Files are those of contactx.LoadSteps in Python. All ranks must
+/// take part in everything.
 class Checkpoint
 {
 public:
@@ -27,18 +29,14 @@ public:
   /// @param[in] assembler The system; it must outlive this.
   /// @param[in] history Further functions that belong to the state, as plastic
   /// strains do.
-  /// @throws std::invalid_argument if a function is null, or of a space whose
-  /// dofs change their order from rank to rank: Lagrange spaces of degree 1 and
-  /// 2, mixed ones of them, discontinuous and quadrature spaces do not.
+  /// @throws std::invalid_argument if a function is null, or, on several ranks,
+  /// of a space whose dofs change their order from rank to rank: Lagrange
+  /// spaces of degree 1 and 2, mixed ones of them, discontinuous and quadrature
+  /// spaces do not.
   explicit Checkpoint(Assembler& assembler,
                       std::vector<std::shared_ptr<Function>> history = {})
-      : _assembler(&assembler)
+      : _assembler(&assembler), _functions(std::move(history)), _core(create())
   {
-    const auto& solved = assembler.bulk()->functions();
-    for (std::size_t k = 0; k < solved.size(); ++k)
-      add("function_" + std::to_string(k), solved[k]);
-    for (std::size_t k = 0; k < history.size(); ++k)
-      add("history_" + std::to_string(k), std::move(history[k]));
   }
 
   /// @brief Write the state; a file of this name is replaced once the new one
@@ -51,15 +49,33 @@ public:
   {
     std::filesystem::path temporary = path;
     temporary += ".tmp";
+    Core::Numbers steps;
+    if (plan)
+      steps = {{"given", plan->given()}, {"place", plan->place()}};
+    std::vector<std::vector<double>> values;
+    for (std::size_t k = 0; k < _functions.size(); ++k)
+    {
+      // Rows of cells may have dofs of other ranks
+      if (k > 0)
+        _functions[k]->x()->scatter_fwd();
+      for (values.emplace_back(); const std::int32_t dof : _dofs[k])
+        values.back().push_back(_functions[k]->x()->array()[dof]);
+    }
     try
     {
-      write_state(File(comm(), ranks(), temporary, "w"), plan);
-      ranks().agree(
+      on_first(
           [&]
           {
-            if (ranks().rank() == 0)
-              std::filesystem::rename(temporary, path);
+            // Where MPI cannot open a file it does not say why
+            if (not std::ofstream(temporary))
+              throw std::runtime_error(std::strerror(errno));
           });
+      {
+        SharedFile file(comm(), ranks(), temporary, MPI_MODE_WRONLY);
+        _core.write(file, std::move(values), std::move(steps));
+        file.sync();
+      }
+      on_first([&] { std::filesystem::rename(temporary, path); });
     }
     catch (const std::exception& error)
     {
@@ -80,10 +96,11 @@ public:
   /// damaged or of another problem, or has no load steps; nothing has changed.
   void read(const std::filesystem::path& path, StepPlan* plan = nullptr)
   {
-    ranks().agree(
+    on_first(
         [&]
         {
-          if (not std::filesystem::is_regular_file(path))
+          if (not std::filesystem::is_regular_file(path)
+              or not std::ifstream(path))
             throw std::invalid_argument("there is no checkpoint "
                                         + path.string()
                                         + ". Give another file, or start anew "
@@ -91,7 +108,18 @@ public:
         });
     try
     {
-      restore(File(comm(), ranks(), path, "r"), plan);
+      SharedFile file(comm(), ranks(), path, MPI_MODE_RDONLY);
+      const auto state = _core.read(file);
+      StepPlan place = plan ? *plan : StepPlan({1});
+      if (plan)
+      {
+        if (not state.steps.contains("place"))
+          throw std::invalid_argument("it has no load steps");
+        place.load(state.steps.at("given"), state.steps.at("place"));
+      }
+      take(state);
+      if (plan)
+        *plan = place;
     }
     catch (const std::exception& error)
     {
@@ -103,443 +131,142 @@ public:
   }
 
 private:
-  static constexpr std::int64_t version = 2;
-  // Rows that are read at once
-  static constexpr std::int64_t chunk = 1 << 16;
+  using Core = contactx::problem::Checkpoint;
 
-  /// Rows of this rank, by keys that no other row has, on any rank.
-  struct Rows
+  contactx::mesh::Ranks& ranks() const
   {
-    std::vector<std::int64_t> keys;
-  };
-
-  /// A function, and its dofs in each row.
-  struct Saved
-  {
-    std::shared_ptr<Function> function;
-    Rows rows;
-    std::vector<std::int32_t> dofs; // (rows, width)
-  };
-
-  /// A file, open while this lives.
-  class File
-  {
-  public:
-    File(MPI_Comm comm, contactx::mesh::Ranks& ranks,
-         const std::filesystem::path& path, const std::string& mode)
-        : _comm(comm), _ranks(&ranks), _parallel(dolfinx::MPI::size(comm) > 1),
-          _handle(dolfinx::io::hdf5::open_file(comm, path, mode, _parallel))
-    {
-    }
-    ~File() { dolfinx::io::hdf5::close_file(_handle); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-
-    bool has(const std::string& name) const
-    {
-      // Asked for in a group that is not there, HDF5 prints errors
-      for (auto end = name.find('/'); end != std::string::npos;
-           end = name.find('/', end + 1))
-        if (not dolfinx::io::hdf5::has_dataset(_handle,
-                                               "/" + name.substr(0, end)))
-          return false;
-      return dolfinx::io::hdf5::has_dataset(_handle, "/" + name);
-    }
-
-    /// Write what is the same on all ranks.
-    template <class T>
-    void write_same(const std::string& name, const std::vector<T>& values) const
-    {
-      const bool mine = dolfinx::MPI::rank(_comm) == 0;
-      put(name, values, 1, mine ? static_cast<std::int64_t>(values.size()) : 0);
-    }
-
-    /// Write rows, with their keys.
-    void write(const Rows& rows, const std::string& name,
-               const std::vector<double>& values) const
-    {
-      const auto n = static_cast<std::int64_t>(rows.keys.size());
-      put(name + "/keys", rows.keys, 1, n);
-      put(name + "/values", values, width_of(rows, values.size()), n);
-    }
-
-    template <class T>
-    std::vector<T> read_same(const std::string& name) const
-    {
-      return get<T>(name, {0, shape(name)[0]});
-    }
-
-    /// Read this rank's rows, in their order.
-    /// @param[in] size Number of values here.
-    std::vector<double> read(const Rows& rows, const std::string& name,
-                             std::size_t size) const
-    {
-      const auto width = static_cast<std::size_t>(width_of(rows, size));
-      std::vector<std::pair<std::int64_t, std::size_t>> mine;
-      for (std::size_t i = 0; i < rows.keys.size(); ++i)
-        mine.emplace_back(rows.keys[i], i);
-      std::ranges::sort(mine);
-      const auto count = contactx::mesh::total(
-          *_ranks, static_cast<std::int64_t>(mine.size()));
-      const auto there = shape(name + "/values");
-      const auto columns = static_cast<std::int64_t>(width);
-      if (there[0] != count or (count > 0 and there[1] != columns))
-        throw std::invalid_argument(
-            "'" + name + "' has " + std::to_string(there[0]) + " rows of "
-            + std::to_string(there[1]) + " there, and " + std::to_string(count)
-            + " of " + std::to_string(width)
-            + " here: it is of another mesh, or of other contacts");
-      std::vector<double> values(mine.size() * width);
-      std::size_t found = 0;
-      for (std::int64_t first = 0; first < count; first += chunk)
-      {
-        const std::array range{first, std::min(first + chunk, count)};
-        const auto keys = get<std::int64_t>(name + "/keys", range);
-        const auto some = get<double>(name + "/values", range);
-        for (std::size_t r = 0; r < keys.size(); ++r)
-        {
-          const auto at = std::ranges::lower_bound(
-              mine, keys[r], {}, [](const auto& row) { return row.first; });
-          if (at == mine.end() or at->first != keys[r])
-            continue;
-          std::copy_n(some.begin() + std::ptrdiff_t(r * width), width,
-                      values.begin() + std::ptrdiff_t(at->second * width));
-          ++found;
-        }
-      }
-      if (contactx::mesh::anywhere(*_ranks, found != mine.size()))
-        throw std::invalid_argument(
-            "'" + name
-            + "' has other rows: it is of another mesh, or of other surfaces");
-      return values;
-    }
-
-  private:
-    /// Values a row, which a rank without rows does not know by itself.
-    std::int64_t width_of(const Rows& rows, std::size_t size) const
-    {
-      const std::size_t n = rows.keys.size();
-      return contactx::mesh::largest(
-          *_ranks, static_cast<std::int64_t>(n > 0 ? size / n : 0));
-    }
-
-    std::vector<std::int64_t> shape(const std::string& name) const
-    {
-      if (not has(name))
-        throw std::invalid_argument("'" + name
-                                    + "' is missing: contacts, their options "
-                                      "or functions were others");
-      auto shape = dolfinx::io::hdf5::get_dataset_shape(_handle, "/" + name);
-      shape.resize(2, 1);
-      return shape;
-    }
-
-    template <class T>
-    void put(const std::string& name, const std::vector<T>& values,
-             std::int64_t width, std::int64_t rows) const
-    {
-      std::int64_t end = 0;
-      MPI_Scan(&rows, &end, 1, MPI_INT64_T, MPI_SUM, _comm);
-      const std::int64_t all = contactx::mesh::total(*_ranks, rows);
-      dolfinx::io::hdf5::write_dataset(_handle, "/" + name, values.data(),
-                                       {end - rows, end}, {all, width},
-                                       _parallel, false);
-    }
-
-    template <class T>
-    std::vector<T> get(const std::string& name,
-                       std::array<std::int64_t, 2> range) const
-    {
-      const hid_t set = dolfinx::io::hdf5::open_dataset(_handle, "/" + name);
-      try
-      {
-        auto values = dolfinx::io::hdf5::read_dataset<T>(set, range, false);
-        H5Dclose(set);
-        return values;
-      }
-      catch (...)
-      {
-        H5Dclose(set);
-        throw;
-      }
-    }
-
-    MPI_Comm _comm;
-    contactx::mesh::Ranks* _ranks;
-    bool _parallel;
-    hid_t _handle;
-  };
-
-  const contactx::solve::System::Contacts& contacts() const
-  {
-    return _assembler->system()->contacts();
+    return _assembler->system()->halo()->ranks();
   }
-  contactx::mesh::Halo& halo() const { return *_assembler->system()->halo(); }
-  contactx::mesh::Ranks& ranks() const { return halo().ranks(); }
   MPI_Comm comm() const
   {
     return _assembler->bulk()->u()->function_space()->mesh()->comm();
   }
 
-  static std::string name_of(std::size_t contact, const std::string& array)
+  /// Does something on rank 0 alone.
+  template <class Work>
+  void on_first(Work work) const
   {
-    return "contact_" + std::to_string(contact) + "/" + array;
+    ranks().agree(
+        [&]
+        {
+          if (ranks().rank() == 0)
+            work();
+        });
+  }
+
+  /// Adds the functions that are solved for to those of the history, and finds
+  /// the rows of all.
+  Core create()
+  {
+    const Bulk& bulk = *_assembler->bulk();
+    std::vector<Core::Function> rows;
+    for (std::size_t k = 0; k < _functions.size(); ++k)
+      if (const std::string name = "history[" + std::to_string(k) + "]";
+          _functions[k] == nullptr)
+        throw std::invalid_argument(name + " is null: give a Function");
+    _functions.insert(_functions.begin(), bulk.u());
+    for (const auto& w : bulk.functions())
+      if (w != bulk.u())
+        _functions.push_back(w);
+    for (std::size_t k = 0; k < _functions.size(); ++k)
+      rows.push_back(rows_of(k == 0 ? "u" : "history[" + std::to_string(k - 1) + "]",
+                             *_functions[k]));
+    const FunctionSpace& V = *bulk.u()->function_space();
+    auto positions = reference_positions(V);
+    positions.resize(rows[0].keys.size() * rows[0].width);
+    const auto& system = *_assembler->system();
+    return {ranks(),
+            system.halo(),
+            system.contacts(),
+            std::move(rows),
+            {std::move(positions), cell_nodes(V),
+             geometry_of(*V.mesh()).points_per_cell}};
   }
 
   /// Finds the rows of a function: nodes, or cells.
-  void add(const std::string& name, std::shared_ptr<Function> f)
+  Core::Function rows_of(const std::string& name, const Function& f)
   {
-    if (f == nullptr)
-      throw std::invalid_argument(name + " is null: give a Function");
-    const FunctionSpace& V = *f->function_space();
-    const auto& dofs = *V.dofmap();
-    const int bs = dofs.bs();
-    Saved saved{f, {}, {}};
+    const FunctionSpace& V = *f.function_space();
+    const auto& map = *V.dofmap();
+    const int bs = map.bs();
+    std::vector<std::int32_t>& dofs = _dofs.emplace_back();
     if (is_lagrange(V))
     {
-      const auto original = original_nodes(V, ranks());
-      const std::int32_t n = dofs.index_map->size_local();
-      saved.rows.keys.assign(original.begin(), original.begin() + n);
-      for (std::int32_t dof = 0; dof < bs * n; ++dof)
-        saved.dofs.push_back(dof);
+      auto keys = original_nodes(V, ranks());
+      keys.resize(map.index_map->size_local());
+      for (std::int32_t dof = 0; dof < bs * std::ssize(keys); ++dof)
+        dofs.push_back(dof);
+      return {name, std::move(keys), 1, bs};
     }
-    else
-    {
-      if (V.element()->needs_dof_permutations()
-          or V.element()->needs_dof_transformations())
-        throw std::invalid_argument(
-            name
-            + " is of a space whose dofs change their order from rank to rank: "
-              "take a Lagrange space of degree 1 or 2, a mixed one of such, a "
-              "quadrature or a discontinuous space");
-      const auto& topology = *V.mesh()->topology();
-      const std::int32_t n = topology.index_map(topology.dim())->size_local();
-      const auto original = original_cells(*V.mesh());
-      if (contactx::mesh::anywhere(ranks(), original.size() < std::size_t(n)))
-        throw std::invalid_argument(
-            name
-            + " has values in cells, but the mesh does not know the numbers "
-              "that they had as it was made: make it with mesh::create_mesh or "
-              "read it");
-      saved.rows.keys.assign(original.begin(), original.begin() + n);
-      const auto cells = dofs.map();
-      for (std::int32_t c = 0; c < n; ++c)
-        for (std::size_t i = 0; i < cells.extent(1); ++i)
-          for (int k = 0; k < bs; ++k)
-            saved.dofs.push_back(bs * cells(c, i) + k);
-    }
-    _functions.emplace(name, std::move(saved));
+    if (ranks().size() > 1
+        and (V.element()->needs_dof_permutations()
+             or V.element()->needs_dof_transformations()))
+      throw std::invalid_argument(
+          name
+          + " is of a space whose dofs change their order from rank to rank: "
+            "take a Lagrange space of degree 1 or 2, a mixed one of such, a "
+            "quadrature or a discontinuous space, or one rank");
+    const auto cells = map.map();
+    for (std::int32_t c = 0; c < num_cells(V); ++c)
+      for (std::size_t i = 0; i < cells.extent(1); ++i)
+        for (int k = 0; k < bs; ++k)
+          dofs.push_back(bs * cells(c, i) + k);
+    return {name, cell_nodes(V), geometry_of(*V.mesh()).points_per_cell,
+            bs * static_cast<int>(cells.extent(1))};
   }
 
-  static std::vector<double> values_of(const Saved& f)
+  static std::int32_t num_cells(const FunctionSpace& V)
   {
-    std::vector<double> values;
-    for (const std::int32_t dof : f.dofs)
-      values.push_back(f.function->x()->array()[dof]);
-    return values;
+    const auto& topology = *V.mesh()->topology();
+    return topology.index_map(topology.dim())->size_local();
   }
 
-  Rows node_rows() const
+  /// Nodes of each owned cell by their numbers in the mesh as it was made.
+  static std::vector<std::int64_t> cell_nodes(const FunctionSpace& V)
   {
-    const auto original = halo().original();
-    return {{original.begin(), original.begin() + halo().num_owned()}};
-  }
-
-  Rows rows_of(contactx::contact::RowKind kind, std::size_t contact) const
-  {
-    if (kind == contactx::contact::RowKind::node)
-      return node_rows();
-    Rows rows;
-    for (const std::int32_t node : contacts()[contact]->slaves().owned())
-      rows.keys.push_back(halo().original()[node]);
-    return rows;
-  }
-
-  /// State of a contact, and what tells it from others.
-  std::vector<contactx::contact::Saved> arrays_of(std::size_t k) const
-  {
-    std::vector<contactx::contact::Saved> arrays
-        = contactx::contact::save(*contacts()[k]);
-    const std::size_t g = halo().gdim();
-    for (contactx::contact::Saved& s : arrays)
-      if (s.rows == contactx::contact::RowKind::node)
-        std::get<std::vector<double>>(s.values).resize(halo().num_owned() * g);
-    // Facets of all ranks, whichever has them: a sum of their hashes
-    std::uint64_t sum
-        = contacts()[k]->sliding() == contactx::contact::Sliding::small ? 1 : 2;
-    if (ranks().rank() > 0)
-      sum = 0;
-    for (const contactx::contact::Saved& s :
-         contacts()[k]->master()->identity())
-    {
-      const auto& numbers = std::get<std::vector<std::int64_t>>(s.values);
-      for (std::size_t i = 0; i < numbers.size(); i += s.width)
-      {
-        std::uint64_t hash = 14695981039346656037u; // FNV-1a
-        for (int j = 0; j < s.width; ++j)
-          hash = (hash ^ std::uint64_t(numbers[i + j])) * 1099511628211u;
-        sum += hash;
-      }
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm());
-    arrays.push_back(
-        {"identity", contactx::contact::RowKind::global, 0,
-         std::vector<double>{double(sum >> 32), double(sum & 0xffffffffu)}});
-    return arrays;
-  }
-
-  /// Reference positions of the owned nodes.
-  std::vector<double> identity() const { return owned(halo().reference()); }
-
-  /// Rows of the owned nodes.
-  std::vector<double> owned(std::span<const double> values) const
-  {
-    return {values.begin(),
-            values.begin()
-                + std::ptrdiff_t(halo().gdim()) * halo().num_owned()};
-  }
-
-  static std::vector<double> doubles(const contactx::contact::Saved& s)
-  {
-    return std::visit(
-        [](const auto& values)
-        { return std::vector<double>(values.begin(), values.end()); },
-        s.values);
-  }
-
-  void write_state(const File& file, const StepPlan* plan) const
-  {
-    file.write_same("format", std::vector<std::int64_t>{version});
-    if (plan)
-    {
-      file.write_same("plan/given", plan->given());
-      file.write_same("plan/place", plan->place());
-    }
-    const Rows nodes = node_rows();
-    file.write(nodes, "nodes", identity());
-    file.write(nodes, "start", owned(halo().start()->u));
-    file.write(nodes, "before", halo().before());
-    for (const auto& [name, f] : _functions)
-      file.write(f.rows, name, values_of(f));
-    for (std::size_t k = 0; k < contacts().size(); ++k)
-      for (const contactx::contact::Saved& s : arrays_of(k))
-        if (s.rows == contactx::contact::RowKind::global)
-          file.write_same(name_of(k, s.name), doubles(s));
-        else
-          file.write(rows_of(s.rows, k), name_of(k, s.name), doubles(s));
-  }
-
-  void restore(const File& file, StepPlan* plan)
-  {
-    if (not file.has("format"))
-      throw std::invalid_argument("it is no checkpoint of contactx");
-    const auto format = file.read_same<std::int64_t>("format");
-    if (format != std::vector{version})
-      throw std::invalid_argument("it has format " + std::to_string(format[0])
-                                  + ", but this contactx reads "
-                                  + std::to_string(version));
-    if (plan and not file.has("plan/place"))
-      throw std::invalid_argument("it has no load steps");
-    check_mesh(file.read(node_rows(), "nodes", identity().size()));
-    std::map<std::string, std::vector<double>> values;
-    for (const auto& [name, f] : _functions)
-    {
-      values[name] = file.read(f.rows, name, f.dofs.size());
-      const bool is_finite = std::ranges::all_of(values[name], [](double v)
-                                                 { return std::isfinite(v); });
-      if (not contactx::mesh::everywhere(ranks(), is_finite))
-        throw std::invalid_argument("'" + name + "' is not finite");
-    }
-    std::vector<double> start
-        = file.read(node_rows(), "start", identity().size());
-    std::vector<double> before
-        = file.read(node_rows(), "before", identity().size());
-    std::vector<std::vector<contactx::contact::Saved>> states;
-    for (std::size_t k = 0; k < contacts().size(); ++k)
-    {
-      std::vector<contactx::contact::Saved> arrays = arrays_of(k);
-      for (contactx::contact::Saved& s : arrays)
-        std::visit(
-            [&](auto& here)
-            {
-              const std::string name = name_of(k, s.name);
-              const auto there
-                  = s.rows == contactx::contact::RowKind::global
-                        ? file.read_same<double>(name)
-                        : file.read(rows_of(s.rows, k), name, here.size());
-              if (s.name == "identity" and not std::ranges::equal(here, there))
-                throw std::invalid_argument(
-                    "contact " + std::to_string(k)
-                    + " has another master, or another sliding");
-              here.assign(there.begin(), there.end());
-            },
-            s.values);
-      states.push_back(std::move(arrays));
-    }
-    StepPlan place = plan ? *plan : StepPlan({1});
-    if (plan)
-      place.load(file.read_same<double>("plan/given"),
-                 file.read_same<double>("plan/place"));
-    take(values, std::move(start), std::move(before), std::move(states));
-    if (plan)
-      *plan = place;
-  }
-
-  void check_mesh(const std::vector<double>& there) const
-  {
-    const std::vector<double> here = identity();
-    std::array<double, 2> most{};
-    for (std::size_t i = 0; i < here.size(); ++i)
-    {
-      most[0] = std::max(most[0], std::abs(here[i]));
-      most[1] = std::max(most[1], std::abs(here[i] - there[i]));
-    }
-    ranks().reduce(std::span<double>(most), contactx::mesh::Reduction::largest);
-    // Another machine may round them in another way
-    if (not(most[1] <= 1e-12 * most[0]))
-      throw std::invalid_argument("its nodes are elsewhere: it is of another "
-                                  "mesh");
+    const auto& numbers = V.mesh()->geometry().input_global_indices();
+    const auto geometry = geometry_of(*V.mesh());
+    std::vector<std::int64_t> nodes;
+    for (std::int32_t c = 0; c < num_cells(V); ++c)
+      for (const std::int32_t point : geometry[c])
+        nodes.push_back(numbers[point]);
+    return nodes;
   }
 
   /// Takes functions and contacts; what was before stays where these do not
   /// fit.
-  void take(const std::map<std::string, std::vector<double>>& values,
-            std::vector<double> start, std::vector<double> last,
-            std::vector<std::vector<contactx::contact::Saved>> contacts)
+  void take(const Core::State& state)
   {
     const contactx::problem::Snapshot before = _assembler->problem().snapshot();
     // Of bodies without stress
     _assembler->problem().find_rigid_modes();
-    std::vector<std::vector<double>> arrays;
-    for (const auto& [name, f] : _functions)
-      arrays.push_back(f.function->x()->array());
-    const auto set = [](Function& f, auto&& write)
+    std::vector<std::vector<double>> old;
+    for (std::size_t k = 0; k < _functions.size(); ++k)
     {
-      write(f.x()->array());
-      f.x()->scatter_fwd();
-    };
-    for (const auto& [name, f] : _functions)
-      set(*f.function,
-          [&](auto& x)
-          {
-            for (std::size_t i = 0; i < f.dofs.size(); ++i)
-              x[f.dofs[i]] = values.at(name)[i];
-          });
+      auto& x = *_functions[k]->x();
+      old.push_back(x.array());
+      for (std::size_t i = 0; i < _dofs[k].size(); ++i)
+        x.array()[_dofs[k][i]] = state.functions[k][i];
+      x.scatter_fwd();
+    }
     try
     {
-      _assembler->take(std::move(start), std::move(last), std::move(contacts));
+      _assembler->take(_core, state);
     }
     catch (...)
     {
-      auto old = arrays.begin();
-      for (const auto& [name, f] : _functions)
-        set(*f.function, [&](auto& x) { x = *old++; });
+      for (std::size_t k = 0; k < _functions.size(); ++k)
+        _functions[k]->x()->array() = old[k];
       before.restore();
       throw;
     }
   }
 
   Assembler* _assembler;
-  std::map<std::string, Saved> _functions;
+  // The displacement, the history, and what else is solved for; dofs of their
+  // rows
+  std::vector<std::shared_ptr<Function>> _functions;
+  std::vector<std::vector<std::int32_t>> _dofs;
+  Core _core;
 };
 } // namespace contactx_dolfinx

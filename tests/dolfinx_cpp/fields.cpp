@@ -108,7 +108,8 @@ bool same(const std::vector<double>& one, const std::vector<double>& other,
 
 /// Three steps and their figures. From what was saved before the last one, on
 /// whatever number of ranks, that is taken again by another Assembler, and once
-/// more by the condensed solver, which knows no conductances.
+/// more by the condensed solver, which knows no conductances. The file of four
+/// ranks is fields.py's.
 void steps(const Scene& scene, const std::string& name,
            const cx::Blocks& blocks, const Conditions& bcs,
            const std::shared_ptr<fem::Constant<T>>& push,
@@ -136,7 +137,7 @@ void steps(const Scene& scene, const std::string& name,
   const std::vector<T> kept = history->x()->array();
   const int size = dolfinx::MPI::size(MPI_COMM_WORLD);
   const auto file = [&name](int ranks)
-  { return name + "." + std::to_string(ranks) + ".h5"; };
+  { return name + "." + std::to_string(ranks) + ".state"; };
   cx::StepPlan plan({0.5, 0.75, 1});
   std::vector<double> last;
   int iterations = 0;

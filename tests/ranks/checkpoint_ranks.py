@@ -14,10 +14,10 @@ from mpi4py import MPI
 import numpy as np
 
 import contactx as cx
-from contactx._host.checkpoint import archive
 from dolfinx.mesh import CellType
 
 import meshes
+from inputs import archive
 from ranks.agreeing import some_ranks, wait
 from scenes.steps import DentedBlock, SlidingBlocks
 
@@ -29,7 +29,7 @@ SCENES: dict[str, Callable[[], Any]] = {
     "plastic, facets, friction": lambda: DentedBlock(friction=0.3, **FACETS),
 }
 # Ranks that write a checkpoint, and those that go on from it
-PAIRS = ((1, 2), (2, 1), (2, 2))
+PAIRS = ((1, 2), (4, 3), (3, 1), (2, 2))
 
 
 def scene_on(name: str, size: int) -> Any:
@@ -72,9 +72,9 @@ def straight(name: str, n: int, folder: Path) -> tuple[dict[str, Any], dict[str,
         return {}, {}
     steps = make_steps(scene)
     take(scene, steps, until=1)
-    middle = state(scene, steps, folder / f"{name} {n}.npz")
+    middle = state(scene, steps, folder / f"{name} {n}.state")
     take(scene, steps)
-    return middle, state(scene, steps, folder / "end.npz")
+    return middle, state(scene, steps, folder / "end.state")
 
 
 def restarted(name: str, n: int, m: int, folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -82,10 +82,10 @@ def restarted(name: str, n: int, m: int, folder: Path) -> tuple[dict[str, Any], 
     scene = scene_on(name, m)
     if scene is None:
         return {}, {}
-    steps = make_steps(scene, restart=folder / f"{name} {n}.npz")
-    again = state(scene, steps, folder / "again.npz")
+    steps = make_steps(scene, restart=folder / f"{name} {n}.state")
+    again = state(scene, steps, folder / "again.state")
     take(scene, steps)
-    return again, state(scene, steps, folder / "end.npz")
+    return again, state(scene, steps, folder / "end.state")
 
 
 def main(folder: Path) -> None:

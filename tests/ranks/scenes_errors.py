@@ -256,7 +256,7 @@ def load_is_not_balanced(folder: Path) -> dict[str, Any]:
 
 def checkpoint_is_damaged(folder: Path) -> dict[str, Any]:
     scene, comm = _blocks(SlidingBlocks)
-    path = folder / "damaged.npz"
+    path = folder / "damaged.state"
     if comm.rank == 0:
         path.write_bytes(b"no archive")
     comm.Barrier()
@@ -267,7 +267,7 @@ def checkpoint_is_damaged(folder: Path) -> dict[str, Any]:
 def checkpoint_cannot_be_written(folder: Path) -> dict[str, Any]:
     """Its folder is gone when it is written."""
     scene, comm = _blocks(SlidingBlocks)
-    path = folder / "gone" / "run.npz"
+    path = folder / "gone" / "run.state"
     steps = cx.LoadSteps(scene.problem, 2, update=scene.update, checkpoint=path, progress=False)
     comm.Barrier()
     if comm.rank == 0:

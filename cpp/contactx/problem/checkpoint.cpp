@@ -120,8 +120,7 @@ void Checkpoint::for_each(State& state, Use use) const
 Checkpoint::State Checkpoint::now() const
 {
   State state;
-  for (std::size_t k = 0; k < _functions.size(); ++k)
-    state.functions.emplace_back(_rows[k].size() * _functions[k].width);
+  state.functions.resize(_functions.size());
   if (_halo)
   {
     state.start = _halo->start()->u;
@@ -147,8 +146,8 @@ void Checkpoint::write(storage::File& file,
 {
   State state = now();
   for (std::size_t k = 0; k < _functions.size(); ++k)
-    check::rows(std::ssize(functions[k]), std::ssize(state.functions[k]), 1,
-                _functions[k].name, "function");
+    check::rows(std::ssize(functions[k]), std::ptrdiff_t(_rows[k].size()),
+                _functions[k].width, _functions[k].name);
   state.functions = std::move(functions);
   state.steps = std::move(steps);
   std::vector<storage::Array> arrays;

@@ -819,9 +819,11 @@ std::string Problem::warning_of(std::size_t k)
 
 Snapshot Problem::snapshot() const { return {_system, results()}; }
 
-Snapshot Problem::snapshot(Snapshot::State state) const
+void Problem::update_results() const
 {
-  return {_system, results(), std::move(state)};
+  for (const Part& part : _parts)
+    if (part.results)
+      part.results->update();
 }
 
 /// Results of each contact, null for none.

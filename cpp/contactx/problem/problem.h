@@ -321,8 +321,9 @@ public:
   /// @brief Copy the state of now, to return to.
   Snapshot snapshot() const;
 
-  /// @brief The state of another run, to go on from.
-  Snapshot snapshot(Snapshot::State state) const;
+  /// @brief Evaluate the results of all contacts for the state of now, which
+  /// another run has left.
+  void update_results() const;
 
   /// @brief Find the rigid modes of free bodies as they are, as the first step
   /// does: those of bodies without stress.

@@ -9,48 +9,36 @@ using namespace contactx::problem;
 
 Snapshot::Snapshot(std::shared_ptr<solve::System> system,
                    std::vector<std::shared_ptr<results::Results>> results)
-    : Snapshot(std::move(system), std::move(results), {})
+    : _system(std::move(system)), _results(std::move(results))
 {
+  std::erase(_results, nullptr);
   for (const auto& result : _results)
     _copies.push_back(*result);
   solve::Bulk& bulk = *_system->bulk();
   const auto u = bulk.displacements();
-  _state.displacements.assign(u.begin(), u.end());
+  _displacements.assign(u.begin(), u.end());
   const auto start = _system->halo()->start();
-  _state.start.assign(start->u.begin(),
-                      start->u.begin() + std::ptrdiff_t(u.size()));
-  _state.before = _system->halo()->before();
+  _start.assign(start->u.begin(), start->u.begin() + std::ptrdiff_t(u.size()));
+  _last = _system->halo()->before();
   if (solve::Fields* fields = bulk.fields())
   {
     const auto values = fields->values();
-    _state.fields.assign(values.begin(), values.end());
+    _fields.assign(values.begin(), values.end());
   }
   for (const auto& contact : _system->contacts())
-    _state.contacts.push_back(contact::save(*contact));
-}
-
-Snapshot::Snapshot(std::shared_ptr<solve::System> system,
-                   std::vector<std::shared_ptr<results::Results>> results,
-                   State state)
-    : _system(std::move(system)), _results(std::move(results)),
-      _state(std::move(state))
-{
-  std::erase(_results, nullptr);
+    _contacts.push_back(contact::save(*contact));
 }
 
 void Snapshot::restore() const
 {
   solve::Bulk& bulk = *_system->bulk();
-  bulk.set_displacements(_state.displacements);
+  bulk.set_displacements(_displacements);
   if (solve::Fields* fields = bulk.fields())
-    fields->set(_state.fields);
-  _system->halo()->set_start(_state.start);
-  _system->halo()->set_before(_state.before);
-  for (std::size_t k = 0; k < _state.contacts.size(); ++k)
-    contact::load(*_system->contacts()[k], _state.contacts[k]);
+    fields->set(_fields);
+  _system->halo()->set_start(_start);
+  _system->halo()->set_before(_last);
+  for (std::size_t k = 0; k < _contacts.size(); ++k)
+    contact::load(*_system->contacts()[k], _contacts[k]);
   for (std::size_t k = 0; k < _copies.size(); ++k)
     *_results[k] = _copies[k];
-  if (_copies.empty())
-    for (const auto& result : _results)
-      result->update();
 }

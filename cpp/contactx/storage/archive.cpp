@@ -145,7 +145,7 @@ std::string fault_of(const Start& start, std::int64_t size)
   if (begin.starts_with("\x89HDF"))
     return "it is of an older contactx for C++, with HDF5 in format 2 or before"
            + reads;
-  if (not begin.starts_with(mark))
+  if (not begin.starts_with(mark) or size < std::int64_t(sizeof(Start)))
     return "it is truncated, or no checkpoint at all";
   if (start.format != format)
     return "contactx " + std::string(start.version.data())
@@ -178,7 +178,8 @@ void contactx::storage::write(mesh::Ranks& ranks, File& file,
   std::int64_t at = sizeof(Start) + start.table;
   for (Entry& e : entries)
   {
-    e.at = padded(at);
+    // An array without values does not make the file longer
+    e.at = e.keys.count > 0 ? padded(at) : at;
     at = e.at + e.keys.count * row_size(e);
   }
   start.size = at;

@@ -157,12 +157,12 @@ def test_files_of_other_kinds(file, tmp_path):
 
 
 def test_files_of_other_problems(file, tmp_path):
-    refused(file, "'history 0' is only in the file: were contacts", history=[])
+    refused(file, r"'history\[0\]' is only in the file: were contacts", history=[])
     scene = Sheared(far=0.1)
-    message = "'history 0' has 1 values of type f8 a row in the file, but 2 of type f8 here"
+    message = r"'history\[0\]' has 1 values of type f8 a row in the file, but 2 of type f8 here"
     refused(file, message, scene, history=[scene.u])
     other = fem.Function(scene.contact.pressure.function_space)
-    refused(file, "'history 0' has 18 rows in the file, but 16 here", scene, history=[other])
+    refused(file, r"'history\[0\]' has 18 rows in the file, but 16 here", scene, history=[other])
 
     scene = Blocks(CellType.triangle)
     problem = scene.problem(scene.contact())

@@ -281,7 +281,7 @@ def test_a_log_has_a_line_for_each_attempt(tmp_path, caplog):
 
 
 def test_a_restarted_run_goes_on_in_its_log(tmp_path):
-    log, saved = tmp_path / "run.log", tmp_path / "run.npz"
+    log, saved = tmp_path / "run.log", tmp_path / "run.state"
     for step in Sheared().steps(4, log=log, checkpoint=saved):
         if step.index == 2:
             break

@@ -120,10 +120,10 @@ def test_steps_are_gone_on_with_from_a_checkpoint(kind, tmp_path):
 
     straight, first, second = (Coupled(kind, friction=0.2) for _ in range(3))
     list(steps(straight))
-    for step in steps(first, checkpoint=tmp_path / "state.npz"):
+    for step in steps(first, checkpoint=tmp_path / "state.state"):
         if step.index == 2:
             break
-    list(steps(second, restart=tmp_path / "state.npz"))
+    list(steps(second, restart=tmp_path / "state.state"))
     for a, b in zip(straight.functions, second.functions, strict=True):
         assert a.x.array.tobytes() == b.x.array.tobytes()
     assert (straight.contact.multiplier == second.contact.multiplier).all()

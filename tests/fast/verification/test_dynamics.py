@@ -233,7 +233,7 @@ def test_a_step_that_arrives_too_fast_is_refused():
 
 
 def test_a_run_goes_on_from_its_file(tmp_path):
-    file = tmp_path / "run.npz"
+    file = tmp_path / "run.state"
     obstacle = cx.Plane((0, 0), (0, 1))
     for options in ({"friction": 0.3}, {"obstacle": obstacle}):
         for step in steps(Flying(CELL, **options), checkpoint=file):

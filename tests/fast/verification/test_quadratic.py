@@ -267,8 +267,8 @@ def test_checkpoints_and_files_hold_all_nodes(method, tmp_path):
         for step in whole:
             output.write(step.t)
             if step.index == 2:
-                whole.save(tmp_path / "half.npz")
-    part, again, _ = loop(restart=tmp_path / "half.npz")
+                whole.save(tmp_path / "half.state")
+    part, again, _ = loop(restart=tmp_path / "half.state")
     list(part)
     assert again.u.x.array == pytest.approx(scene.u.x.array, abs=1e-13)
     assert (tmp_path / "out.pvd").exists()

@@ -76,16 +76,16 @@ def test_the_same_bits(name, elsewhere):
 
 @pytest.mark.parametrize("name", [name for name in restarts.SCENES if name not in restarts.QUICK])
 def test_three_steps_and_three_are_six(name, tmp_path):
-    restarts.check_restart(name, tmp_path / "run.npz")
+    restarts.check_restart(name, tmp_path / "run.state")
 
 
 @pytest.mark.parametrize("name", ["hexahedra", "facets, friction"])
 def test_a_new_process_goes_on_to_the_same_bits(name, tmp_path):
     straight, _ = restarts.run(restarts.SCENES[name]())
-    restarts.run(restarts.SCENES[name](), until=4, checkpoint=tmp_path / "run.npz")
+    restarts.run(restarts.SCENES[name](), until=4, checkpoint=tmp_path / "run.state")
     program = (
         "import contactx, sys, scenes.steps as t\n"
-        f"bits, _ = t.run(t.SCENES[{name!r}](), restart='run.npz')\n"
+        f"bits, _ = t.run(t.SCENES[{name!r}](), restart='run.state')\n"
         "sys.stdout.buffer.write(b''.join(bits))"
     )
     done = subprocess.run(

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import contactx as cx
-from contactx._host.checkpoint import archive
 
 from scenes.steps import Rubbing
 
@@ -33,7 +32,7 @@ def room_for(size):
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """A checkpoint after one step of four, its scene, and the end of the run."""
-    path, scene = tmp_path_factory.mktemp("whole") / "run.npz", Rubbing()
+    path, scene = tmp_path_factory.mktemp("whole") / "run.state", Rubbing()
     steps = scene.steps(4)
     for step in steps:
         scene.history.x.array[:] = 2 * scene.history.x.array + step.index
@@ -46,7 +45,7 @@ def whole(tmp_path_factory):
 def test_a_full_disk(tmp_path, whole, part):
     """The error says so, the last file is whole, and the run goes on."""
     size = whole[0].stat().st_size
-    path, scene = tmp_path / "run.npz", Rubbing()
+    path, scene = tmp_path / "run.state", Rubbing()
     steps = scene.steps(4, checkpoint=path)
     for step in steps:
         scene.history.x.array[:] = 2 * scene.history.x.array + step.index
@@ -70,7 +69,7 @@ def test_a_full_disk(tmp_path, whole, part):
 
 
 def test_a_disk_that_fills_up_amid_a_loop(tmp_path, whole):
-    path, scene = tmp_path / "run.npz", Rubbing()
+    path, scene = tmp_path / "run.state", Rubbing()
     steps = scene.steps(4, checkpoint=path)
     with pytest.raises(OSError, match="cannot write the checkpoint"), room_for(100):
         scene.run(steps)
@@ -92,53 +91,47 @@ def refused(path, error=ValueError):
 
 
 def test_truncated_anywhere(tmp_path, whole):
-    data, path = whole[0].read_bytes(), tmp_path / "part.npz"
-    for length in [*range(0, 60, 7), *np.linspace(60, len(data) - 1, 40).astype(int)]:
+    data, path = whole[0].read_bytes(), tmp_path / "part.state"
+    for length in [*range(0, 100, 17), *np.linspace(100, len(data) - 1, 9).astype(int)]:
         path.write_bytes(data[:length])
-        with pytest.raises(ValueError, match=rf"{path} is truncated, or no checkpoint at all"):
-            archive.read(path)
-    refused(path)
+        assert "it is truncated" in refused(path)
 
 
-def test_flipped_bits_are_found_or_do_no_harm(tmp_path, whole):
-    data, path = whole[0].read_bytes(), tmp_path / "flipped.npz"
-    good = archive.read(whole[0])
+def test_flipped_bits_are_found(tmp_path, whole):
+    """All but those between two arrays, and in arrays that say nothing of the state."""
+    data, path = whole[0].read_bytes(), tmp_path / "flipped.state"
+    scene = Rubbing()
     rng = np.random.default_rng(1)
     found = 0
-    for at in rng.integers(0, len(data), 300):
+    for at in rng.integers(0, len(data), 40):
         flipped = bytearray(data)
         flipped[at] ^= 1 << int(rng.integers(8))
         path.write_bytes(flipped)
         try:
-            arrays = archive.read(path)
+            scene.steps(4, restart=path)
         except ValueError as error:
             assert str(path) in str(error)
             found += 1
-        else:
-            # It was when the file was made, say; or an array has another name, as a restart sees
-            assert all(good[n].tobytes() == a.tobytes() for n, a in arrays.items() if n in good)
-    assert found > 200
+    assert found > 35
 
 
 @pytest.mark.parametrize(
     "content",
-    [b"", b"PK", b"\x93NUMPY", np.random.default_rng(0).bytes(1000)],
-    ids=["nothing", "beginning of an archive", "beginning of an array", "noise"],
+    [b"", b"contactx", b"\x93NUMPY", np.random.default_rng(0).bytes(1000)],
+    ids=["nothing", "beginning of a checkpoint", "beginning of an array", "noise"],
 )
 def test_files_of_other_kinds(tmp_path, content):
-    path = tmp_path / "other.npz"
+    path = tmp_path / "other.state"
     path.write_bytes(content)
     assert "truncated, or no checkpoint at all" in refused(path)
 
 
 def test_what_is_no_file(tmp_path):
     assert "is a folder, not a checkpoint: give the name of a file" in refused(tmp_path)
-    assert "there is no checkpoint" in refused(tmp_path / "none.npz", FileNotFoundError)
-    # Not a checkpoint, and no danger
+    assert "there is no checkpoint" in refused(tmp_path / "none.state", FileNotFoundError)
+    # Of an older version, and no danger
     np.savez(tmp_path / "pickled.npz", u=np.array([os.system]), allow_pickle=True)
-    assert "is damaged, or no checkpoint at all: Object arrays cannot be loaded" in refused(
-        tmp_path / "pickled.npz"
-    )
+    assert "it is of an older contactx for Python" in refused(tmp_path / "pickled.npz")
 
 
 @pytest.mark.parametrize("place", ["a folder", "below a file", "no regular file"])
@@ -148,7 +141,7 @@ def test_places_that_cannot_be_written(tmp_path, place):
     path, error, message = {
         "a folder": (tmp_path, ValueError, "checkpoint is the folder .*: give the name of a file"),
         "below a file": (
-            tmp_path / "file" / "x.npz",
+            tmp_path / "file" / "x.state",
             OSError,
             "cannot make the folder of checkpoint",
         ),

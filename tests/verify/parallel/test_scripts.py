@@ -15,7 +15,7 @@ from ranks.relaxed import MESHES
 # Ranks, what is said, and how often all ranks raise the same
 RUNS = {
     "checkpoint_ranks": (
-        2,
+        4,
         [
             f"{name}: {n} ranks, then {m}"
             for name, (n, m) in product(checkpoint_ranks.SCENES, checkpoint_ranks.PAIRS)

@@ -58,7 +58,7 @@ def test_slabs_of_the_river_bed_turn_towards_one_another(dam):
 
 def test_a_restart_goes_on(dam, tmp_path):
     """The same displacements from a checkpoint."""
-    file = tmp_path / "dam.npz"
+    file = tmp_path / "dam.state"
 
     class StopError(Exception):
         pass
@@ -243,7 +243,7 @@ def test_a_restart_of_rock_goes_on(dam_of_rock, tmp_path):
         if step.t == 2:
             raise StopError
 
-    file = tmp_path / "dam.npz"
+    file = tmp_path / "dam.state"
     first = Dam(DamSetting(MODEL_OF_ROCK, ROCK))
     with pytest.raises(StopError):
         run(first, STAGES_OF_ROCK, each=stop, progress=False, checkpoint=file)

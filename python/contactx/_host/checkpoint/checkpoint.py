@@ -39,7 +39,7 @@ class Checkpoint:
         V = problem.displacement.function_space
         self._problem = problem
         self._comm = V.mesh.comm
-        names = ["u", *(f"history {k}" for k in range(len(history)))]
+        names = ["u", *(f"history[{k}]" for k in range(len(history)))]
         self._functions = [problem.displacement, *history]
         keys, self._dofs = zip(*map(_keyed_dofs, self._functions, names), strict=True)
         discrete = [contact.discrete for contact in problem.contacts]
@@ -141,7 +141,8 @@ def _keyed_dofs(function: fem.Function, name: str) -> tuple[Numbers, Numbers]:
             )
         keys = _cell_nodes(V)
         blocks = V.dofmap.list[: len(keys)].astype(np.int64)
-    return keys, (blocks[:, :, None] * size + np.arange(size)).reshape(len(keys), -1)
+    dofs = blocks[:, :, None] * size + np.arange(size)
+    return keys, dofs.reshape(len(keys), blocks.shape[1] * size)
 
 
 def _cell_nodes(V: fem.FunctionSpace) -> Numbers:
