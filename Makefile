@@ -33,7 +33,7 @@ SANITIZED := tests/fast/assembly/test_condensed.py tests/fast/assembly/test_form
 # Executions of each fuzz target, and the compiler that has libFuzzer
 RUNS ?= 1000000
 CLANG ?= clang++
-BENCHES := audit forming forms dynamics globalisation path hertz methods nafems recovery edges fits degrees rates locking solvers limit many spheres ironing friction scenes skips steps tuning growth scaling dam_face
+BENCHES := audit checkpoint forming forms dynamics globalisation path hertz methods nafems recovery edges fits degrees rates locking solvers limit many spheres ironing friction scenes skips steps tuning growth scaling dam_face
 
 # Threads: MPI and the tests' machine decide, not OpenMP. Without a display,
 # VTK need not look for one.

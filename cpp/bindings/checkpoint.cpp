@@ -48,10 +48,11 @@ public:
   using Function = std::tuple<std::string, Array<std::int64_t>, int>;
 
   PythonCheckpoint(
-      py::object ranks, std::shared_ptr<contactx::mesh::Halo> halo,
+      py::object ranks,
       std::vector<std::shared_ptr<contactx::contact::Contact>> contacts,
       const std::vector<Function>& functions, const Array<double>& positions,
-      const Array<std::int64_t>& cells)
+      const Array<std::int64_t>& cells,
+      std::shared_ptr<contactx::mesh::Halo> halo)
       : _ranks(make_ranks(std::move(ranks))),
         _checkpoint(*_ranks, std::move(halo), std::move(contacts),
                     given(functions),
@@ -104,14 +105,15 @@ void contactx_bindings::checkpoint(py::module_& m)
                              });
   py::class_<PythonCheckpoint>(
       m, "Checkpoint", "State of a problem in a file, on any number of ranks")
-      .def(py::init<py::object, std::shared_ptr<contactx::mesh::Halo>,
+      .def(py::init<py::object,
                     std::vector<std::shared_ptr<contactx::contact::Contact>>,
                     const std::vector<PythonCheckpoint::Function>&,
-                    const Array<double>&, const Array<std::int64_t>&>(),
-           py::arg("ranks"), py::arg("halo").none(true), py::arg("contacts"),
-           py::arg("functions"), py::arg("positions"), py::arg("cells"),
+                    const Array<double>&, const Array<std::int64_t>&,
+                    std::shared_ptr<contactx::mesh::Halo>>(),
+           py::arg("ranks"), py::arg("contacts"), py::arg("functions"),
+           py::arg("positions"), py::arg("cells"), py::arg("halo") = py::none(),
            // A subclass in Python must outlive who calls its methods
-           py::keep_alive<1, 4>())
+           py::keep_alive<1, 3>())
       .def(
           "write",
           [](const PythonCheckpoint& self, py::object file,

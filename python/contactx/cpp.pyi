@@ -862,11 +862,11 @@ class Checkpoint:
     def __init__(
         self,
         ranks: Any,
-        halo: Halo,
         contacts: Sequence[Contact],
         functions: Sequence[tuple[str, ArrayLike, Int]],
         positions: ArrayLike,
         cells: ArrayLike,
+        halo: Halo | None = None,
     ) -> None: ...
     def apply(self, state: CheckpointState) -> None: ...
     def read(self, file: Any) -> CheckpointState: ...

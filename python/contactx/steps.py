@@ -63,8 +63,9 @@ class LoadSteps:
     On several ranks all of them run the loop. What ``update``, ``output`` or the solve raises on
     one rank is raised on all of them. There are two errors on a single rank that leave the others
     waiting, which cannot be prevented: one in the loop's body, and one in ``update`` or ``output``
-    while the others are inside a collective call of that function. Rank 0 writes checkpoints and
-    shows progress; a run can be restarted on any other number of ranks.
+    while the others are inside a collective call of that function. Each rank writes its
+    share of a checkpoint, and rank 0 shows progress; a run can be restarted on any other number of
+    ranks.
     """
 
     def __init__(
@@ -93,8 +94,9 @@ class LoadSteps:
                 none; and at a restart with the t of the file.
             history: Functions that belong to the state of a step, such as plastic strains. They are
                 written to checkpoints, read from them, and what ``update`` does to them is undone
-                when its attempt fails. On several ranks a checkpoint has those of linear
-                Lagrange, quadrature and discontinuous spaces, as the rank has them that owns them.
+                when its attempt fails. On several ranks a checkpoint has those of Lagrange spaces
+                of degree 1 and 2, mixed ones of them, quadrature and discontinuous spaces, as the
+                rank has them that owns them.
             output: Called with each accepted step, before the loop's body.
             checkpoint: File to write once the loop's body has ended for an accepted step. The last
                 one stays whole if writing fails.
@@ -169,8 +171,8 @@ class LoadSteps:
         """Write a checkpoint of the last accepted step; all ranks must take part.
 
         Args:
-            path: File in NumPy's format .npz. One of this name is replaced when the new one is
-                whole.
+            path: The file, of which each rank writes its share. One of this name is replaced when
+                the new one is whole.
 
         Raises:
             OSError: If it cannot be written.

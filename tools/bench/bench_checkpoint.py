@@ -63,12 +63,12 @@ class Counted:
             self.read += len(values)
             self._whole[1](file, at, values)
 
-        SharedFile.write, SharedFile.read = write, read  # type: ignore[method-assign]
+        SharedFile.write, SharedFile.read = write, read
         return self
 
     def __exit__(self, *_: object) -> None:
         """Count no more."""
-        SharedFile.write, SharedFile.read = self._whole  # type: ignore[method-assign]
+        SharedFile.write, SharedFile.read = self._whole
 
 
 def measure(cells: int, folder: str) -> dict[str, Any]:

@@ -35,6 +35,7 @@ PARTS = {
     "steps": (
         "python/contactx/steps.py",
         "python/contactx/_host/checkpoint",
+        "cpp/contactx/storage",
     ),
     "parallel": ("cpp/contactx/mesh", "python/contactx/_host/parallel"),
 }

@@ -149,7 +149,7 @@ def test_files_of_other_kinds(file, tmp_path):
     refused(tmp_path / "old.npz", "of an older contactx for Python.*, and contactx .* reads format")
     old = tmp_path / "old.h5"
     old.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
-    refused(old, "of an older contactx for C\\+\\+.* finish that run with the contactx that began it")
+    refused(old, "of an older contactx for C\\+\\+.* finish that run with the contactx")
     data = bytearray(file.read_bytes())
     data[24:30], data[48] = b"9.9.9\0", 7
     file.write_bytes(data)

@@ -3,6 +3,7 @@
 """The benchmarks run on coarse meshes, so that they cannot rot; what they measure is not judged."""
 
 import bench_audit
+import bench_checkpoint
 import bench_degrees
 import bench_dynamics
 import bench_edges
@@ -70,6 +71,16 @@ def test_hertz():
     written = tables.read(runner.OUTPUT / "hertz.csv")
     assert [row["force"] for row in written] == [row["force"] for row in rows]
     assert image.imread(runner.OUTPUT / "hertz.png").shape[0] > 300
+
+
+def test_checkpoint():
+    """No rank has more than its share and a tenth."""
+    rows = bench_checkpoint.main(["12"])
+    assert [row["ranks"] for row in rows] == [1, 2, 4]
+    for row in rows:
+        assert row["dofs"] == 3 * 13**3 and row["file"] == rows[0]["file"]
+        assert row["memory writing"] > 0
+        assert 0.99 < row["written part"] < 1.1 and 0.99 < row["read part"] < 1.1
 
 
 def test_growth():

@@ -47,11 +47,11 @@ class Checkpoint:
         halo = next((contact.halo.nodes for contact in discrete), None)
         self._core = core.Checkpoint(
             MPIRanks(self._comm),
-            halo,
             discrete,
             [(n, k, d.shape[1]) for n, k, d in zip(names, keys, self._dofs, strict=True)],
             reference_positions(V)[: V.dofmap.index_map.size_local],
             _cell_nodes(V),
+            halo,
         )
 
     def write(self, path: Path, steps: Mapping[str, npt.NDArray[Any]]) -> None:

@@ -18,13 +18,16 @@ import numpy.typing as npt
 
 from contactx._host.parallel.reduce import agreed
 
+# What MPICH says before it says why
+_PREFIX = "Other I/O error "
+
 type Bytes = npt.NDArray[np.uint8]
 
 
 class SharedFile:
     """A file that all ranks have open, as ``storage/archive.h`` of the core describes it."""
 
-    def __init__(self, comm: MPI.Comm, path: Path, mode: int):
+    def __init__(self, comm: MPI.Intracomm, path: Path, mode: int):
         """Open a file that is there; all ranks must take part in this and all else.
 
         Args:
@@ -77,12 +80,12 @@ class SharedFile:
             try:
                 work(*arguments)
             except MPI.Exception as error:
-                text = str(error).rsplit(": ", 1)[-1]
-                raise OSError(errno.EIO, text.removeprefix("Other I/O error ")) from error
+                text = str(error).rsplit(": ", 1)[-1].removeprefix(_PREFIX)
+                raise OSError(errno.EIO, text) from error
 
 
 @contextmanager
-def replaced(comm: MPI.Comm, path: Path) -> Iterator[SharedFile]:
+def replaced(comm: MPI.Intracomm, path: Path) -> Iterator[SharedFile]:
     """A new, empty file, which takes the place of the old one once it is whole.
 
     Args:
@@ -121,7 +124,7 @@ def replaced(comm: MPI.Comm, path: Path) -> Iterator[SharedFile]:
 
 
 @contextmanager
-def opened(comm: MPI.Comm, path: Path) -> Iterator[SharedFile]:
+def opened(comm: MPI.Intracomm, path: Path) -> Iterator[SharedFile]:
     """A file to read.
 
     Args:

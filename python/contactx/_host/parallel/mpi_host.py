@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import cycle
 from typing import Any
 
@@ -195,10 +195,11 @@ class Exchange:
         """
         self.comm = comm
         # Of all exchanges of a communicator, which is where MPI keeps them
-        self._tags = comm.Get_attr(_TAGS)
-        if self._tags is None:
-            self._tags = cycle(range(_FIRST, _FIRST + _COUNT))
-            comm.Set_attr(_TAGS, self._tags)
+        tags: Any = comm.Get_attr(_TAGS)
+        if tags is None:
+            tags = cycle(range(_FIRST, _FIRST + _COUNT))
+            comm.Set_attr(_TAGS, tags)
+        self._tags: Iterator[int] = tags
 
     def __call__(self, outgoing: Mapping[int, bytes]) -> dict[int, bytes]:
         """Send bytes and receive those of others; all ranks must take part.
