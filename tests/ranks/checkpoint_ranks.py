@@ -28,8 +28,9 @@ SCENES: dict[str, Callable[[], Any]] = {
     "tied": lambda: SlidingBlocks(CellType.tetrahedron, tied=True, offset=0.01),
     "plastic, facets, friction": lambda: DentedBlock(friction=0.3, **FACETS),
 }
-# Ranks that write a checkpoint, and those that go on from it
-PAIRS = ((1, 2), (4, 3), (3, 1), (2, 2))
+# Ranks that write a checkpoint, and those that go on from it: three from what four have written,
+# and one from what these three have written then
+PAIRS = ((1, 2), (4, 3), (3, 1))
 
 
 def scene_on(name: str, size: int) -> Any:
@@ -83,7 +84,7 @@ def restarted(name: str, n: int, m: int, folder: Path) -> tuple[dict[str, Any], 
     if scene is None:
         return {}, {}
     steps = make_steps(scene, restart=folder / f"{name} {n}.state")
-    again = state(scene, steps, folder / "again.state")
+    again = state(scene, steps, folder / f"{name} {m}.state")
     take(scene, steps)
     return again, state(scene, steps, folder / "end.state")
 
@@ -91,7 +92,7 @@ def restarted(name: str, n: int, m: int, folder: Path) -> tuple[dict[str, Any], 
 def main(folder: Path) -> None:
     for name in SCENES:
         runs = {}
-        for n in range(1, WORLD.size + 1):
+        for n in (1, WORLD.size):
             runs[n] = straight(name, n, folder)
             wait()
         for n, m in PAIRS:
@@ -100,9 +101,9 @@ def main(folder: Path) -> None:
             if WORLD.rank == 0:
                 # What was read is what was written, to the last bit
                 for key, values in again.items():
-                    same = values.tobytes() == runs[n][0][key].tobytes()
-                    assert same or key == "mesh: coordinates", (name, n, m, key)
+                    assert values.tobytes() == runs[n][0][key].tobytes(), (name, n, m, key)
                 compare(end, runs[1][1], (name, n, m))
+                runs.setdefault(m, (again, end))
                 print(f"{name}: {n} ranks, then {m}", flush=True)
 
 
