@@ -35,7 +35,7 @@ type Float = SupportsFloat | SupportsIndex
 type Int = SupportsInt | SupportsIndex
 
 """
-_ABC = ("Callable", "Iterator", "Mapping", "Sequence")
+_ABC = ("Callable", "Iterable", "Iterator", "Mapping", "Sequence")
 _TYPING = ("Any", "ClassVar", "SupportsFloat", "SupportsIndex", "SupportsInt", "overload")
 _SHORTER = (
     (r"\b(?:numpy\.typing|collections\.abc|typing)\.", ""),

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "bindings.h"
+#include "master.h"
 #include "parallel.h"
 #include <contactx/problem/checkpoint.h>
 #include <pybind11/stl.h>
@@ -87,14 +87,17 @@ void contactx_bindings::checkpoint(py::module_& m)
 {
   py::class_<Checkpoint::State>(m, "CheckpointState",
                                 "Values of all that a step's answer depends on")
-      .def_property_readonly("functions",
-                             [](const Checkpoint::State& self)
-                             {
-                               py::list functions;
-                               for (const auto& values : self.functions)
-                                 functions.append(array(values));
-                               return functions;
-                             })
+      .def_property_readonly(
+          "functions",
+          [](py::object self)
+          {
+            py::list functions;
+            for (const auto& values :
+                 self.cast<const Checkpoint::State&>().functions)
+              functions.append(looking(
+                  values, {static_cast<py::ssize_t>(values.size())}, self));
+            return functions;
+          })
       .def_property_readonly("steps",
                              [](const Checkpoint::State& self)
                              {
@@ -117,12 +120,12 @@ void contactx_bindings::checkpoint(py::module_& m)
       .def(
           "write",
           [](const PythonCheckpoint& self, py::object file,
-             const std::vector<Array<double>>& functions,
+             const py::iterable& functions,
              const std::map<std::string, Array<double>>& steps)
           {
             std::vector<std::vector<double>> values;
-            for (const auto& f : functions)
-              values.push_back(copy(f));
+            for (const py::handle f : functions)
+              values.push_back(copy(f.cast<Array<double>>()));
             Checkpoint::Numbers numbers;
             for (const auto& [name, a] : steps)
               numbers[name] = copy(a);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Written by tools/stubs.py
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, SupportsFloat, SupportsIndex, SupportsInt, overload
 
 import numpy as np
@@ -870,9 +870,7 @@ class Checkpoint:
     ) -> None: ...
     def apply(self, state: CheckpointState) -> None: ...
     def read(self, file: Any) -> CheckpointState: ...
-    def write(
-        self, file: Any, functions: Sequence[ArrayLike], steps: Mapping[str, ArrayLike]
-    ) -> None: ...
+    def write(self, file: Any, functions: Iterable, steps: Mapping[str, ArrayLike]) -> None: ...
 
 def check_cells(
     halo: Halo, cell: str, geometry: MeshGeometry, num_owned: Int, original: ArrayLike

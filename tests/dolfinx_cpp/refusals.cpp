@@ -16,6 +16,7 @@
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
 #include <dolfinx/mesh/generation.h>
+#include <numeric>
 
 using namespace dolfinx;
 using T = PetscScalar;
@@ -51,12 +52,13 @@ void refuses(const char* words, F&& work)
 }
 
 std::shared_ptr<fem::FunctionSpace<U>>
-space(const std::shared_ptr<mesh::Mesh<U>>& mesh, int degree)
+space(const std::shared_ptr<mesh::Mesh<U>>& mesh, int degree,
+      bool is_discontinuous = false)
 {
   auto element = basix::create_element<U>(
       basix::element::family::P, basix::cell::type::quadrilateral, degree,
       basix::element::lagrange_variant::gll_warped,
-      basix::element::dpc_variant::unset, false);
+      basix::element::dpc_variant::unset, is_discontinuous);
   return std::make_shared<fem::FunctionSpace<U>>(fem::create_functionspace<U>(
       mesh, std::make_shared<fem::FiniteElement<U>>(
                 element, std::vector<std::size_t>{2})));
@@ -133,8 +135,7 @@ int main(int argc, char* argv[])
                                      tags->find(12)),
         V);
     const auto make = [&](const cx::Surface& slave, cx::Contact::Master master,
-                          cx::Options options = {})
-    {
+                          cx::Options options = {}) {
       return std::make_shared<cx::Contact>(slave, std::move(master), options);
     };
     const auto couple = [&](std::shared_ptr<cx::Contact> contact)
@@ -159,9 +160,10 @@ int main(int argc, char* argv[])
             [&] { couple(make(bottom, plane_at(0), {.friction = -1})); });
     refuses("adjust is -1: give a finite length",
             [&] { couple(make(bottom, plane_at(0), {.adjust = -1})); });
-    refuses(
-        "but a tie keeps the gaps", [&]
-        { couple(make(bottom, plane_at(0), {.tied = true, .adjust = 0.1})); });
+    refuses("but a tie keeps the gaps",
+            [&] {
+              couple(make(bottom, plane_at(0), {.tied = true, .adjust = 0.1}));
+            });
     refuses("offset is not finite",
             [&] { couple(make(bottom, plane_at(0), {.offset = NAN})); });
     refuses("degree 1 or 2",
@@ -178,7 +180,9 @@ int main(int argc, char* argv[])
     refuses("F has 2 arguments", [&] { cx::Assembler(J, F, u, none, one()); });
     refuses("J has 1 arguments", [&] { cx::Assembler(F, F, u, none, one()); });
     refuses("bcs[1] is null",
-            [&] { cx::Assembler(F, J, u, {fixed, nullptr}, one()); });
+            [&] {
+              cx::Assembler(F, J, u, {fixed, nullptr}, one());
+            });
     refuses("contacts[0] is null",
             [&] { cx::Assembler(F, J, u, none, {nullptr}); });
     refuses("obstacle of a Contact is null",
@@ -209,8 +213,7 @@ int main(int argc, char* argv[])
             });
     // Contact of a surface with itself has no integrals over facets
     refuses("but slave and master are the same surface",
-            [&]
-            {
+            [&] {
               couple(make(bottom, bottom,
                           {.method = cx::Method::surface_to_surface}));
             });
@@ -277,9 +280,10 @@ int main(int argc, char* argv[])
             "functions[1]",
             [&]
             {
-              solves(
-                  two, [&](auto& b)
-                  { b.functions[1] = std::make_shared<fem::Function<T>>(W); });
+              solves(two,
+                     [&](auto& b) {
+                       b.functions[1] = std::make_shared<fem::Function<T>>(W);
+                     });
             });
     refuses("functions[1] is on another mesh",
             [&]
@@ -322,7 +326,8 @@ int main(int argc, char* argv[])
     cx::Checkpoint checkpoint(assembler);
     refuses("there is no checkpoint nowhere.state",
             [&] { checkpoint.read("nowhere.state"); });
-    refuses("history[0] is null", [&] { cx::Checkpoint(assembler, {nullptr}); });
+    refuses("history[0] is null",
+            [&] { cx::Checkpoint(assembler, {nullptr}); });
     if (dolfinx::MPI::size(MPI_COMM_WORLD) > 1)
       refuses("whose dofs change their order from rank to rank",
               [&]
@@ -364,6 +369,25 @@ int main(int argc, char* argv[])
       std::ofstream("older.h5") << "\x89HDF";
     refuses("it is of an older contactx for C++",
             [&] { checkpoint.read("older.h5"); });
+    {
+      // Values in cells of a mesh that was made of another one
+      std::vector<std::int32_t> cells(
+          mesh->topology()->index_map(2)->size_local());
+      std::iota(cells.begin(), cells.end(), 0);
+      const auto part = std::make_shared<dolfinx::mesh::Mesh<U>>(
+          std::get<0>(dolfinx::mesh::create_submesh(*mesh, 2, cells)));
+      const auto f = std::make_shared<fem::Function<T>>(space(part, 1, true));
+      std::ranges::fill(f->x()->array(), 3);
+      cx::Checkpoint own(assembler, {f});
+      own.write("submesh.state");
+      std::ranges::fill(f->x()->array(), 0);
+      own.read("submesh.state");
+      if (std::ranges::any_of(f->x()->array(), [](T v) { return v != 3; }))
+      {
+        ++failures;
+        std::printf("a function of a submesh was not read\n");
+      }
+    }
     std::ranges::fill(u->x()->array(), NAN);
     checkpoint.write("refusals.state");
     std::ranges::fill(u->x()->array(), 0);
@@ -413,11 +437,17 @@ int main(int argc, char* argv[])
     };
     const cx::Motion motion{moving, start, velocity, dt};
     refuses("start is null",
-            [&] { dynamics(forms, {moving, nullptr, velocity, dt}); });
+            [&] {
+              dynamics(forms, {moving, nullptr, velocity, dt});
+            });
     refuses("velocity is null, u itself",
-            [&] { dynamics(forms, {moving, start, moving, dt}); });
+            [&] {
+              dynamics(forms, {moving, start, moving, dt});
+            });
     refuses("dt is null or no number",
-            [&] { dynamics(forms, {moving, start, velocity, weight}); });
+            [&] {
+              dynamics(forms, {moving, start, velocity, weight});
+            });
     refuses("F does not depend on start and velocity",
             [&]
             {
@@ -425,7 +455,9 @@ int main(int argc, char* argv[])
               dynamics(forms, {moving, start, other, dt});
             });
     refuses("mass has 1 arguments, but must have 2",
-            [&] { dynamics({forms.F, forms.J, forms.F}, motion); });
+            [&] {
+              dynamics({forms.F, forms.J, forms.F}, motion);
+            });
     const auto falling = dynamics(forms, motion);
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());

@@ -41,6 +41,15 @@ Digest digest_of(mesh::Ranks& ranks, const std::vector<std::uint64_t>& hashes)
     ranks.reduce(std::span<std::int64_t>(sums), mesh::Reduction::sum);
   return {sums[0], sums[1], sums[2]};
 }
+
+/// Messages that come in; what a rank sends to itself has no copy.
+mesh::Messages exchanged(mesh::Ranks& ranks, mesh::Messages out)
+{
+  auto mine = out.extract(ranks.rank());
+  mesh::Messages in = ranks.exchange(out);
+  in.insert(std::move(mine));
+  return in;
+}
 } // namespace
 
 std::uint64_t contactx::storage::hash(std::span<const std::byte> bytes)
@@ -73,7 +82,7 @@ Rows::Rows(mesh::Ranks& ranks, std::span<const std::int64_t> keys, int width)
     _sent[to].push_back(static_cast<std::int32_t>(i));
   }
   std::vector<std::int64_t> share;
-  for (const auto& [from, bytes] : ranks.exchange(out))
+  for (const auto& [from, bytes] : exchanged(ranks, std::move(out)))
   {
     std::span<const std::byte> left = bytes;
     const auto theirs
@@ -81,7 +90,6 @@ Rows::Rows(mesh::Ranks& ranks, std::span<const std::int64_t> keys, int width)
     share.insert(share.end(), theirs.begin(), theirs.end());
     _received.emplace_back(from, theirs.size() / width);
   }
-  out.clear();
 
   const std::vector<std::uint64_t> theirs = hashes_of(share, width);
   const auto compare = [&](std::int32_t a, std::int32_t b)
@@ -126,8 +134,7 @@ std::vector<std::byte> Rows::to_share(std::span<const std::byte> rows,
     for (const std::int32_t i : mine)
       mesh::pack(out[to], rows.subspan(i * width, width));
   }
-  const mesh::Messages in = _ranks->exchange(out);
-  out.clear();
+  const mesh::Messages in = exchanged(*_ranks, std::move(out));
   std::vector<std::byte> share(_place.size() * width);
   auto place = _place.begin();
   for (const auto& [from, count] : _received)
@@ -148,8 +155,7 @@ std::vector<std::byte> Rows::from_share(std::span<const std::byte> share,
     for (std::size_t i = 0; i < count; ++i)
       mesh::pack(out[to], share.subspan(*place++ * width, width));
   }
-  const mesh::Messages in = _ranks->exchange(out);
-  out.clear();
+  const mesh::Messages in = exchanged(*_ranks, std::move(out));
   std::vector<std::byte> rows(_size * width);
   for (const auto& [from, mine] : _sent)
     for (std::size_t i = 0; i < mine.size(); ++i)

@@ -67,7 +67,7 @@ class Checkpoint:
         for function in self._functions[1:]:
             # Rows of cells may have dofs of other ranks
             function.x.scatter_forward()
-        values = [f.x.array[d] for f, d in zip(self._functions, self._dofs, strict=True)]
+        values = (f.x.array[d] for f, d in zip(self._functions, self._dofs, strict=True))
         with replaced(self._comm, path) as file:
             self._core.write(file, values, steps)
 

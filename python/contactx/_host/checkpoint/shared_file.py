@@ -1,6 +1,9 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""A file that all ranks write or read at once, and that is whole or not there."""
+"""A file that all ranks write or read at once, and that is whole or not there.
+
+By MPI itself: of the wheels beside DOLFINx's, h5py has no parallel HDF5, and adios2 no MPI.
+"""
 
 from __future__ import annotations
 
