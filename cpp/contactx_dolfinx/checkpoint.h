@@ -169,8 +169,9 @@ private:
       if (w != bulk.u())
         _functions.push_back(w);
     for (std::size_t k = 0; k < _functions.size(); ++k)
-      rows.push_back(rows_of(k == 0 ? "u" : "history[" + std::to_string(k - 1) + "]",
-                             *_functions[k]));
+      rows.push_back(
+          rows_of(k == 0 ? "u" : "history[" + std::to_string(k - 1) + "]",
+                  *_functions[k]));
     const FunctionSpace& V = *bulk.u()->function_space();
     auto positions = reference_positions(V);
     positions.resize(rows[0].keys.size() * rows[0].width);

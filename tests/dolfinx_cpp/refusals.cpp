@@ -135,7 +135,8 @@ int main(int argc, char* argv[])
                                      tags->find(12)),
         V);
     const auto make = [&](const cx::Surface& slave, cx::Contact::Master master,
-                          cx::Options options = {}) {
+                          cx::Options options = {})
+    {
       return std::make_shared<cx::Contact>(slave, std::move(master), options);
     };
     const auto couple = [&](std::shared_ptr<cx::Contact> contact)
@@ -160,10 +161,9 @@ int main(int argc, char* argv[])
             [&] { couple(make(bottom, plane_at(0), {.friction = -1})); });
     refuses("adjust is -1: give a finite length",
             [&] { couple(make(bottom, plane_at(0), {.adjust = -1})); });
-    refuses("but a tie keeps the gaps",
-            [&] {
-              couple(make(bottom, plane_at(0), {.tied = true, .adjust = 0.1}));
-            });
+    refuses(
+        "but a tie keeps the gaps", [&]
+        { couple(make(bottom, plane_at(0), {.tied = true, .adjust = 0.1})); });
     refuses("offset is not finite",
             [&] { couple(make(bottom, plane_at(0), {.offset = NAN})); });
     refuses("degree 1 or 2",
@@ -180,9 +180,7 @@ int main(int argc, char* argv[])
     refuses("F has 2 arguments", [&] { cx::Assembler(J, F, u, none, one()); });
     refuses("J has 1 arguments", [&] { cx::Assembler(F, F, u, none, one()); });
     refuses("bcs[1] is null",
-            [&] {
-              cx::Assembler(F, J, u, {fixed, nullptr}, one());
-            });
+            [&] { cx::Assembler(F, J, u, {fixed, nullptr}, one()); });
     refuses("contacts[0] is null",
             [&] { cx::Assembler(F, J, u, none, {nullptr}); });
     refuses("obstacle of a Contact is null",
@@ -213,7 +211,8 @@ int main(int argc, char* argv[])
             });
     // Contact of a surface with itself has no integrals over facets
     refuses("but slave and master are the same surface",
-            [&] {
+            [&]
+            {
               couple(make(bottom, bottom,
                           {.method = cx::Method::surface_to_surface}));
             });
@@ -280,10 +279,9 @@ int main(int argc, char* argv[])
             "functions[1]",
             [&]
             {
-              solves(two,
-                     [&](auto& b) {
-                       b.functions[1] = std::make_shared<fem::Function<T>>(W);
-                     });
+              solves(
+                  two, [&](auto& b)
+                  { b.functions[1] = std::make_shared<fem::Function<T>>(W); });
             });
     refuses("functions[1] is on another mesh",
             [&]
@@ -437,17 +435,11 @@ int main(int argc, char* argv[])
     };
     const cx::Motion motion{moving, start, velocity, dt};
     refuses("start is null",
-            [&] {
-              dynamics(forms, {moving, nullptr, velocity, dt});
-            });
+            [&] { dynamics(forms, {moving, nullptr, velocity, dt}); });
     refuses("velocity is null, u itself",
-            [&] {
-              dynamics(forms, {moving, start, moving, dt});
-            });
+            [&] { dynamics(forms, {moving, start, moving, dt}); });
     refuses("dt is null or no number",
-            [&] {
-              dynamics(forms, {moving, start, velocity, weight});
-            });
+            [&] { dynamics(forms, {moving, start, velocity, weight}); });
     refuses("F does not depend on start and velocity",
             [&]
             {
@@ -455,9 +447,7 @@ int main(int argc, char* argv[])
               dynamics(forms, {moving, start, other, dt});
             });
     refuses("mass has 1 arguments, but must have 2",
-            [&] {
-              dynamics({forms.F, forms.J, forms.F}, motion);
-            });
+            [&] { dynamics({forms.F, forms.J, forms.F}, motion); });
     const auto falling = dynamics(forms, motion);
     cx::petsc::Owner<KSP, KSPDestroy> ksp;
     KSPCreate(MPI_COMM_WORLD, ksp.put());

@@ -102,7 +102,7 @@ class Checkpoint:
             contact.fields.evaluate()
 
 
-def _keyed_dofs(function: fem.Function, name: str) -> tuple[Numbers, Numbers]:
+def _keyed_dofs(function: fem.Function, name: str) -> tuple[Numbers, npt.NDArray[np.int32]]:
     """Rows of a function by their numbers in the mesh as it was made.
 
     Lagrange spaces of degree 1 or 2 have a row a node, others a row a cell.
@@ -130,7 +130,7 @@ def _keyed_dofs(function: fem.Function, name: str) -> tuple[Numbers, Numbers]:
         and element.degree in (1, 2)
     ):
         keys = original_nodes(V)[: V.dofmap.index_map.size_local, None]
-        blocks: npt.NDArray[Any] = np.arange(len(keys))[:, None]
+        blocks = np.arange(len(keys), dtype=np.int32)[:, None]
     else:
         is_fixed = _has_fixed_order(element) and not V.element.needs_dof_transformations
         if V.mesh.comm.size > 1 and not is_fixed:
@@ -140,8 +140,8 @@ def _keyed_dofs(function: fem.Function, name: str) -> tuple[Numbers, Numbers]:
                 "discontinuous space, or one rank"
             )
         keys = _cell_nodes(V)
-        blocks = V.dofmap.list[: len(keys)].astype(np.int64)
-    dofs = blocks[:, :, None] * size + np.arange(size)
+        blocks = V.dofmap.list[: len(keys)]
+    dofs = blocks[:, :, None] * np.int32(size) + np.arange(size, dtype=np.int32)
     return keys, dofs.reshape(len(keys), blocks.shape[1] * size)
 
 
