@@ -5,6 +5,8 @@
 import os
 import resource
 import signal
+import subprocess
+import sys
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -14,6 +16,7 @@ import pytest
 import contactx as cx
 
 from scenes.steps import Rubbing
+from tether import environment, tethered
 
 
 @contextmanager
@@ -77,6 +80,47 @@ def test_a_disk_that_fills_up_amid_a_loop(tmp_path, whole):
     assert os.listdir(tmp_path) == []
     scene.run(steps)
     assert scene.state() == whole[1].state()
+
+
+KILLED = """\
+import contactx, os, signal
+from contactx._host.checkpoint.shared_file import SharedFile
+from scenes.steps import Rubbing
+
+whole, calls = SharedFile.write, []
+
+def write(self, at, values):
+    calls.append(at)
+    whole(self, at, values[: len(values) // 2] if len(calls) == {last} else values)
+    if len(calls) == {last}:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+steps = Rubbing().steps(4, restart="run.state", checkpoint="run.state")
+SharedFile.write = write
+for step in steps:
+    pass
+"""
+
+
+@pytest.mark.parametrize("last", [1, 5, 12])
+def test_a_kill_leaves_the_last_file(tmp_path, whole, last):
+    """Also where it comes amid an array; the next run writes over what it has left."""
+    path = tmp_path / "run.state"
+    path.write_bytes(whole[0].read_bytes())
+    killed = subprocess.run(
+        tethered([sys.executable, "-c", KILLED.format(last=last)]),
+        cwd=tmp_path,
+        env=environment(),
+        capture_output=True,
+    )
+    assert killed.returncode in (-signal.SIGKILL, 128 + signal.SIGKILL), killed.stderr
+    assert path.read_bytes() == whole[0].read_bytes()
+    assert sorted(os.listdir(tmp_path)) == ["run.state", "run.state.tmp"]
+    assert "it is truncated, or no checkpoint at all" in refused(tmp_path / "run.state.tmp")
+    scene = Rubbing()
+    scene.run(scene.steps(4, restart=path, checkpoint=path))
+    assert scene.state() == whole[1].state()
+    assert os.listdir(tmp_path) == ["run.state"]
 
 
 def refused(path, error=ValueError):
