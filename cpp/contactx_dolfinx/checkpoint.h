@@ -71,7 +71,8 @@ public:
               throw std::runtime_error(std::strerror(errno));
           });
       {
-        SharedFile file(comm(), ranks(), temporary, MPI_MODE_WRONLY);
+        SharedFile file(comm(), ranks(), temporary,
+                        MPI_MODE_CREATE | MPI_MODE_WRONLY);
         _core.write(file, std::move(values), std::move(steps));
         file.sync();
       }

@@ -16,7 +16,7 @@ namespace contactx_dolfinx
 class SharedFile final : public contactx::storage::File
 {
 public:
-  /// @brief Open a file that is there.
+  /// @brief Open a file.
   /// @param[in] comm Communicator.
   /// @param[in] ranks Its ranks.
   /// @param[in] path The file.

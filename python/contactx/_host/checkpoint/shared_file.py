@@ -31,7 +31,7 @@ class SharedFile:
     """A file that all ranks have open, as ``storage/archive.h`` of the core describes it."""
 
     def __init__(self, comm: MPI.Intracomm, path: Path, mode: int):
-        """Open a file that is there; all ranks must take part in this and all else.
+        """Open a file; all ranks must take part in this and all else.
 
         Args:
             comm: Communicator.
@@ -104,7 +104,7 @@ def replaced(comm: MPI.Intracomm, path: Path) -> Iterator[SharedFile]:
             # Where MPI cannot open a file it does not say why
             if comm.rank == 0:
                 open(temporary, "wb").close()
-        file = SharedFile(comm, temporary, MPI.MODE_WRONLY)
+        file = SharedFile(comm, temporary, MPI.MODE_CREATE | MPI.MODE_WRONLY)
         try:
             yield file
             file.sync()
