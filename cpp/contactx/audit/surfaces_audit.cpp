@@ -181,7 +181,8 @@ void SurfacesAudit::look_back(std::span<const double> start,
   for (const auto& [own, other, nodes] : sides)
   {
     // Facets that have become long are no reason to allow more
-    const double size = std::min(facet_size(other, start), facet_size(other, x));
+    const double size
+        = std::min(facet_size(other, start), facet_size(other, x));
     const double tolerance = contact_depth_max * size + overlap;
     FoundNodes found
         = passed_nodes(*_halo, own, other, start, x, nodes, tolerance);
