@@ -51,13 +51,17 @@ penetrate(const Assembler& assembler, const Surface& surface,
 
   const std::int32_t owned = halo->num_owned();
   std::vector<std::int8_t> is_entry(owned, 0);
-  for (std::int32_t i = 0; i < owned; ++i)
-  {
-    contactx::Vector<3> x{};
-    std::copy_n(halo->reference().begin() + halo->gdim() * i, halo->gdim(),
-                x.begin());
-    is_entry[i] = vertex[i] >= 0 and enters(x);
-  }
+  halo->ranks().agree(
+      [&]
+      {
+        for (std::int32_t i = 0; i < owned; ++i)
+        {
+          contactx::Vector<3> x{};
+          std::copy_n(halo->reference().begin() + halo->gdim() * i,
+                      halo->gdim(), x.begin());
+          is_entry[i] = vertex[i] >= 0 and enters(x);
+        }
+      });
   std::vector<std::shared_ptr<const contactx::contact::Contact>> contacts;
   for (const auto& contact : assembler.contacts())
     contacts.push_back(contact->shared_discrete());

@@ -256,7 +256,8 @@ class LoadSteps:
                         error.add_note(
                             f"No step from t = {self.t:.6g} converged; the last attempt, to t = "
                             f"{end:.6g}, was the shortest that max_cuts = {plan.max_cuts} "
-                            "allows"
+                            "allows. Where a structure buckles or snaps, dynamics leads on "
+                            "(manual: howto/snap)"
                         )
                         interrupts.allow()
                         self._update_again(error)
@@ -323,7 +324,7 @@ class LoadSteps:
             try:
                 state = self._state.read(path)
                 steps, plan = state.steps, copy(self._plan)
-                if "place" not in steps:
+                if not {"given", "place"} <= steps.keys():
                     raise ValueError("it has no load steps")
                 plan.load(steps["given"], steps["place"])
                 self._problem.find_rigid_modes()

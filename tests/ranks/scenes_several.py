@@ -187,9 +187,7 @@ def valley() -> Iterator[cx.ContactProblem]:
 def loose_discs() -> Iterator[cx.ContactProblem]:
     """Discs that nothing holds make room for a lid, and are pressed by it."""
     balls = LooseBalls(friction=0.3)
-    for depth in (0.4, 0.8, 1.2, 1.6):
-        balls.push(depth)
-        balls.problem.solve()
+    for _ in cx.LoadSteps(balls.problem, 4, update=lambda t: balls.push(1.6 * t), progress=False):
         yield balls.problem
 
 

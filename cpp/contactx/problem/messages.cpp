@@ -68,6 +68,18 @@ std::string contactx::problem::no_convergence(std::string_view count,
   return text + " (manual: errors/no-convergence)";
 }
 
+std::string contactx::problem::loose_bodies(std::int64_t count,
+                                            const std::string& place)
+{
+  return "; " + std::to_string(count)
+         + (count == 1 ? " body is loose, around "
+                       : " bodies are loose, one of them around ")
+         + place
+         + ": supports, weak springs, friction or contact from the start "
+           "(adjust=, a small overlap by offset=) hold what is loose (manual: "
+           "errors/loose-bodies)";
+}
+
 std::string contactx::problem::held_bodies(std::int64_t motions, double force)
 {
   return "nothing but the corners between facets resists "

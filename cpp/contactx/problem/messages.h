@@ -26,6 +26,11 @@ std::string failure_of(solve::Verdict verdict, double moved);
 std::string no_convergence(std::string_view count, std::string_view limit,
                            bool is_homogeneous);
 
+/// @brief Say which bodies nothing holds, at the end of a failure.
+/// @param[in] count Their number.
+/// @param[in] place Where one of them is, in the reference configuration.
+std::string loose_bodies(std::int64_t count, const std::string& place);
+
 /// @brief Say that bodies are held along motions that nothing but the corners
 /// between facets resists.
 /// @param[in] motions Number of these motions, and of those that nothing

@@ -265,7 +265,10 @@ void Problem::advance(StepPlan& plan, const std::function<void(double)>& update,
           std::string(error.what()) + ". No step from t = "
           + number_text(plan.t(), 6) + " converged; the last attempt, to t = "
           + number_text(t, 6) + ", was the shortest that max_cuts = "
-          + std::to_string(plan.max_cuts()) + " allows" + also);
+          + std::to_string(plan.max_cuts())
+          + " allows. Where a structure buckles or snaps, dynamics leads on "
+            "(manual: howto/snap)"
+          + also);
     }
     catch (...)
     {
@@ -576,6 +579,8 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
   else if (verdict == Verdict::large_rotation)
     moved = _loop.turned() * 180 / std::numbers::pi;
   std::string failure = failure_of(verdict, moved);
+  if (not failure.empty())
+    failure += loose_bodies();
   if (verdict == Verdict::solution)
   {
     const Timer timer(_report, "audit");
@@ -586,7 +591,7 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
   const bool is_costly = verdict == Verdict::goes_on and _attempt
                          and _attempt->budget and _number >= *_attempt->budget;
   if (is_costly)
-    failure = no_convergence(std::to_string(_number), "max_it");
+    failure = this->no_convergence(std::to_string(_number), "max_it");
   // Shorter steps may do better where these have made no progress
   const bool is_slow
       = verdict == Verdict::not_finite or verdict == Verdict::stuck;
@@ -902,8 +907,18 @@ std::string Problem::why_slow(std::span<const double> direction)
            "(manual: errors/residual-stagnates)";
 }
 
+/// What an error says of bodies that nothing holds; collective.
+std::string Problem::loose_bodies() const
+{
+  const auto found = _loop.free_bodies().loose();
+  return found.count == 0 ? std::string{}
+                          : problem::loose_bodies(
+                                found.count, point_text(found.middle, _size));
+}
+
 std::string Problem::no_convergence(std::string_view count,
                                     std::string_view limit) const
 {
-  return problem::no_convergence(count, limit, _loop.is_homogeneous());
+  return problem::no_convergence(count, limit, _loop.is_homogeneous())
+         + loose_bodies();
 }

@@ -342,6 +342,8 @@ public:
                              std::string_view limit) const;
 
 private:
+  std::string loose_bodies() const;
+
   /// True if damped steps may converge where the last run has failed: not where
   /// steps solve what they solve exactly.
   bool damping_may_help() const;

@@ -122,6 +122,7 @@ void ActiveSet::begin_step()
 {
   _is_frozen = _is_stale = false;
   _changes = {};
+  _paired = 0;
   _frozen.begin_step();
   _halo->shrink();
   for (const auto& c : _contacts)
@@ -168,6 +169,8 @@ Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
 Changes ActiveSet::update(bool is_first)
 {
   Changes changes;
+  if (is_first)
+    changes.pairs = _paired;
   for (const auto& c : _contacts)
     changes.pairs += c->search();
   for (const auto& c : _contacts)
@@ -193,6 +196,7 @@ void ActiveSet::pair()
   _changes = {};
   for (const auto& c : _contacts)
     _changes.pairs += c->search();
+  _paired += _changes.pairs;
   _changes.pairs = mesh::total(_halo->ranks(), _changes.pairs);
   for (const auto& c : _contacts)
     c->update_gap();

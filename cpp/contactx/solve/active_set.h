@@ -131,6 +131,8 @@ private:
   CycleGuard _guard;
   FrozenPairs _frozen;
   Changes _changes;
+  // Pairs that changed before the first iterate
+  std::int64_t _paired = 0;
   bool _is_frozen = false;
   // Whether the residual is one of frozen kinematics, or of pairs that were
   // frozen for an active set that is far off

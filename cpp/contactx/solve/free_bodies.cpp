@@ -377,7 +377,7 @@ bool FreeBodies::stabilise(const Forces& forces)
   _held.reset();
   _neutral.reset();
   _free_modes = 0;
-  if (not _modes or not _modes->any_free())
+  if (not any_free())
     return false;
   const std::span<const double> x = positions();
   const std::size_t n
@@ -439,6 +439,10 @@ bool FreeBodies::stabilise(const Forces& forces)
     closed_any = true;
   }
   _free_modes = N.cols();
+  const Eigen::Index m = _modes->modes_per_body();
+  _is_loose.assign(_modes->count(), 0);
+  for (std::size_t b = 0; N.cols() > 0 and b < _is_loose.size(); ++b)
+    _is_loose[b] = N.middleRows(b * m, m).norm() > math::equal_rel_tol;
   if (not has_friction() and motions.N.cols() > motions.num_free)
     note_neutral(motions, rows, x, pull, force, checked(forces.of_bulk()));
   if (_neutral and _is_holding)
@@ -446,6 +450,30 @@ bool FreeBodies::stabilise(const Forces& forces)
   else if (_free_modes > 0)
     add_springs({N, N.cols()}, x, pull, force);
   return closed_any;
+}
+
+FreeBodies::LooseBodies FreeBodies::loose() const
+{
+  const auto first = std::ranges::find(_is_loose, 1);
+  if (_free_modes == 0 or first == _is_loose.end())
+    return {};
+  const std::size_t g = _modes->gdim();
+  // Where users have drawn it
+  const std::span<const double> x = _bulk->reference();
+  const auto body = _modes->body().first(_bodies->map().num_owned());
+  std::vector<double> sums(g + 1);
+  for (std::size_t i = 0; i < body.size(); ++i)
+    if (body[i] == first - _is_loose.begin())
+    {
+      for (std::size_t k = 0; k < g; ++k)
+        sums[k] += x[g * i + k];
+      ++sums[g];
+    }
+  ranks().reduce(std::span(sums), Reduction::sum);
+  for (std::size_t k = 0; k < g; ++k)
+    sums[k] /= sums[g];
+  sums.pop_back();
+  return {std::ranges::count(_is_loose, 1), std::move(sums)};
 }
 
 FreeBodies::Field FreeBodies::displacements(const Motions& motions,
@@ -634,7 +662,7 @@ std::vector<double> FreeBodies::strongest(const std::vector<Rows>& rows,
 
 bool FreeBodies::may_balance(const Forces& forces, double reach) const
 {
-  if (not _modes or not _modes->any_free())
+  if (not any_free())
     return true;
   const std::span<const double> x = positions();
   const std::vector<double> loads = along(x, forces.of_bulk(), 1);
@@ -899,10 +927,12 @@ std::vector<std::int8_t> FreeBodies::driven(std::span<const double> pull) const
   return is_driven;
 }
 
-std::optional<FreeBodies::Way> FreeBodies::way_out(const Forces& forces,
-                                                   bool is_first)
+bool FreeBodies::any_free() const { return _modes and _modes->any_free(); }
+
+std::optional<FreeBodies::Escape> FreeBodies::escape(const Forces& forces,
+                                                     bool is_first)
 {
-  if (not _modes or not _modes->any_free())
+  if (not any_free())
     return std::nullopt;
   const std::span<const double> x = positions();
   const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
@@ -923,14 +953,14 @@ std::optional<FreeBodies::Way> FreeBodies::way_out(const Forces& forces,
   const Room room = this->room(rows(x), is_driven, is_first ? 0 : 2 * size);
   if (not(room.depth > size))
     return std::nullopt;
-  Way way{room.depth, std::vector<double>(all.size())};
+  Escape found{room.depth, std::vector<double>(all.size())};
   // Linear strains take rotations that are linear in the reference for rigid
   const bool is_linear = _bulk->is_linear();
   for (std::size_t i = 0; i < all.size() / g; ++i)
     _modes->move(static_cast<std::int32_t>(i),
                  is_linear ? _bulk->reference() : x, &room.motion[body[i] * m],
-                 not is_linear, &way.by[g * i]);
-  return way;
+                 not is_linear, &found.increment[g * i]);
+  return found;
 }
 
 /// Orthonormal basis of the motions that no closed node resists, and behind

@@ -154,12 +154,15 @@ public:
   /// @return Whether nodes have been closed or stick on any rank.
   bool stabilise(const Forces& forces);
 
+  /// @brief True if a body has motions that nothing, or little, resists.
+  bool any_free() const;
+
   /// @brief Rigid motions of free bodies, and how deep what makes them go has
   /// been.
-  struct Way
+  struct Escape
   {
-    double depth;           ///< largest penetration, length
-    std::vector<double> by; ///< displacements (shape=(num_owned, gdim))
+    double depth;                  ///< largest penetration, length
+    std::vector<double> increment; ///< of owned nodes (shape=(num_owned, gdim))
   };
 
   /// @brief Find where free bodies that no force acts on give way to what
@@ -167,7 +170,7 @@ public:
   /// @param[in] forces Forces at the iterate.
   /// @return Where they go to in first order; nothing if nothing penetrates
   /// them.
-  std::optional<Way> way_out(const Forces& forces, bool is_first);
+  std::optional<Escape> escape(const Forces& forces, bool is_first);
 
   /// @brief Movement of the bodies along their free modes since the last
   /// call of `stabilise`.
@@ -216,6 +219,16 @@ public:
 
   /// @brief Number of free rigid modes at the last iterate.
   std::int64_t free_modes() const { return _free_modes; }
+
+  /// @brief Bodies that had free rigid modes at the last iterate.
+  struct LooseBodies
+  {
+    std::int64_t count = 0;
+    std::vector<double> middle; ///< of the first one (shape=(gdim))
+  };
+
+  /// @brief Find these bodies; collective.
+  LooseBodies loose() const;
 
   /// @brief Number of nodes that were closed in this step to balance a body.
   std::int64_t closed_for_balance() const { return _closed_for_balance; }
@@ -303,6 +316,7 @@ private:
   std::int64_t _free_modes = 0, _closed_for_balance = 0;
   bool _is_unbalanced = false, _begins = true, _has_given_way = false;
   bool _is_holding = false, _has_let_go = false;
+  std::vector<std::int8_t> _is_loose; // of each body
   std::optional<std::vector<double>> _springs;
   std::unique_ptr<Loose> _loose;
   std::unique_ptr<Neutral> _neutral;

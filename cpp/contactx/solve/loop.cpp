@@ -117,30 +117,32 @@ void Loop::set_factors(std::span<const double> stiffness)
 void Loop::make_room()
 {
   _has_made_room = false;
+  if (not _bodies->any_free())
+    return;
   double depth = std::numeric_limits<double>::infinity();
   std::vector<double> before;
-  while (true)
+  for (int moves = 0;; ++moves)
   {
     _active_set.pair();
-    const auto way = _bodies->way_out(_forces, before.empty());
-    if (not way)
+    const auto found = _bodies->escape(_forces, moves == 0);
+    if (not found)
     {
-      _has_made_room = not before.empty();
+      _has_made_room = moves > 0;
       return;
     }
     const std::span<const double> now = _system->bulk()->displacements();
-    if (not(way->depth < room_ratio * depth))
+    if (not(found->depth < room_ratio * depth))
     {
       // What is packed deforms from where it is
       _system->bulk()->set_displacements(before);
+      _has_made_room = moves > 1;
       return;
     }
-    _has_made_room = not before.empty();
-    depth = way->depth;
+    depth = found->depth;
     before.assign(now.begin(), now.end());
     std::vector<double> u = before;
     for (std::size_t i = 0; i < u.size(); ++i)
-      u[i] += way->by[i];
+      u[i] += found->increment[i];
     _system->bulk()->set_displacements(u);
   }
 }

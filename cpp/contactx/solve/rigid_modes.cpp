@@ -182,20 +182,20 @@ void RigidModes::move(std::int32_t node, std::span<const double> x,
                       const double* motion, bool is_exact, double* by) const
 {
   const std::size_t b = body()[node];
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero(), turn = arm, way = arm;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero(), turn = arm, shift = arm;
   for (int k = 0; k < _gdim; ++k)
   {
     arm[k] = x[std::size_t(node) * _gdim + k] - _middle[b * _gdim + k];
-    way[k] = motion[k];
+    shift[k] = motion[k];
   }
   for (int k = _gdim; k < modes_per_body(); ++k)
     turn[_gdim == 2 ? 2 : k - 3] = motion[k] / _radius[b];
   const double angle = turn.norm();
   if (is_exact and angle > 0)
-    way += Eigen::AngleAxisd(angle, turn / angle) * arm - arm;
+    shift += Eigen::AngleAxisd(angle, turn / angle) * arm - arm;
   else
-    way += turn.cross(arm);
-  std::copy_n(way.data(), _gdim, by);
+    shift += turn.cross(arm);
+  std::copy_n(shift.data(), _gdim, by);
 }
 
 void RigidModes::update(Bulk& bulk, std::span<const double> x)

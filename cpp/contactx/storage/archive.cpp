@@ -148,8 +148,11 @@ std::string fault_of(const Start& start, std::int64_t size)
   if (not begin.starts_with(mark) or size < std::int64_t(sizeof(Start)))
     return "it is truncated, or no checkpoint at all";
   if (start.format != format)
-    return "contactx " + std::string(start.version.data())
+  {
+    const std::string_view by(start.version.data(), start.version.size());
+    return "contactx " + std::string(by.substr(0, by.find('\0')))
            + " wrote it in format " + std::to_string(start.format) + reads;
+  }
   if (start.size != size)
     return "it is truncated: it has " + std::to_string(size) + " bytes of "
            + std::to_string(start.size);

@@ -6,6 +6,7 @@
 #include <array>
 #include <compare>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -46,6 +47,15 @@ Digest digest_of(mesh::Ranks& ranks, const std::vector<std::uint64_t>& hashes)
 mesh::Messages exchanged(mesh::Ranks& ranks, mesh::Messages out)
 {
   auto mine = out.extract(ranks.rank());
+  ranks.agree(
+      [&]
+      {
+        for (const auto& [to, bytes] : out)
+          if (bytes.size() > std::numeric_limits<std::int32_t>::max())
+            throw std::length_error(
+                "an array of the checkpoint has more than 2 GiB for one rank: "
+                "take more ranks");
+      });
   mesh::Messages in = ranks.exchange(out);
   in.insert(std::move(mine));
   return in;

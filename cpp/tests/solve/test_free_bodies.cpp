@@ -593,28 +593,29 @@ TEST(FreeBodies, BodiesThatNoForceActsOnGetOutOfWhatPenetratesThem)
   {
     Block block(g, 0.3, 0.02, -0.05);
     FreeBodies free = block.scene.begun();
-    const auto way = free.way_out(block.loads(std::vector<double>(g)), true);
-    ASSERT_TRUE(way);
-    EXPECT_DOUBLE_EQ(way->depth, 0.05);
+    const auto found = free.escape(block.loads(std::vector<double>(g)), true);
+    ASSERT_TRUE(found);
+    EXPECT_DOUBLE_EQ(found->depth, 0.05);
     // The gap grows by 0.02 along x, so that it turns; nothing is closed
     for (std::size_t i = 0; i < block.slaves.size(); ++i)
     {
       const double x = block.scene.truss.x[block.slaves[i] * g];
-      EXPECT_NEAR(way->by[block.slaves[i] * g + g - 1], 0.05 - 0.02 * x, 2e-4);
+      EXPECT_NEAR(found->increment[block.slaves[i] * g + g - 1],
+                  0.05 - 0.02 * x, 2e-4);
       EXPECT_EQ(block.floor->kind[i], law::open);
     }
     // A force on it is for contact to balance
-    EXPECT_FALSE(free.way_out(block.loads(down(g)), true));
+    EXPECT_FALSE(free.escape(block.loads(down(g)), true));
   }
   // What only touches stays
   Block resting(2, 0, 0, 0);
   FreeBodies free = resting.scene.begun();
-  EXPECT_FALSE(free.way_out(resting.loads({0, 0}), true));
+  EXPECT_FALSE(free.escape(resting.loads({0, 0}), true));
   // and once bodies go they leave a gap
-  const auto way = free.way_out(resting.loads({0, 0}), false);
-  ASSERT_TRUE(way);
-  EXPECT_NEAR(way->by[1], way->depth, 1e-3 * way->depth);
-  EXPECT_LT(way->depth, 1e-8);
+  const auto found = free.escape(resting.loads({0, 0}), false);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->increment[1], found->depth, 1e-3 * found->depth);
+  EXPECT_LT(found->depth, 1e-8);
 }
 
 TEST(FreeBodies, WhereAllIsLinearMotionsAreAboutTheReference)

@@ -53,7 +53,9 @@ class ContactPart:
         self.dissipation: float = totals.dissipation
 
     def moment(self, point: npt.ArrayLike) -> float | Array:
-        """Moment of the force about a point, of where the nodes are now; all ranks take part.
+        """Moment of the force about a point; all ranks must take part.
+
+        It is that of now: take it before the next step.
 
         Args:
             point: The point, shape (gdim,).

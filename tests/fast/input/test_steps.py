@@ -81,7 +81,7 @@ ROWS = {
         ),
         (
             output(lambda b, c: {"fields": [quadratic(b)]}),
-            r"fields\[0\] is of .*: interpolate it into a Lagrange space of u's degree",
+            r"fields\[0\] is of .*: interpolate or project it into a Lagrange space of u's degree",
         ),
         (output(lambda b, c: {"t": np.nan}), "t is nan: give a finite number"),
     ],
@@ -121,11 +121,11 @@ ROWS = {
         ),
         (
             output(lambda b, c: {"fields": c.gap}),
-            "fields must be a list of fem.Function, not Function",
+            "fields is Function: give a list of fem.Function and contactx.Projection",
         ),
         (
             output(lambda b, c: {"fields": [constant(1.0)]}),
-            "fields holds a Constant: pass a list of fem.Function",
+            r"fields\[0\] is Constant: give a fem.Function or contactx.Projection",
         ),
         (output(lambda b, c: {"t": "0"}), "t is str '0': give a number"),
     ],

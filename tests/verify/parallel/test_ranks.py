@@ -28,6 +28,7 @@ TRIED = (
     ("chain", "surface"),
     ("chain_condensed", "surface"),
     ("corner_3d", "node"),
+    ("loose_discs", "node"),
     ("sliding_block", "node"),
     ("dragged_2d", "surface"),
     ("dragged_3d", "node"),

@@ -37,9 +37,12 @@ class SharedFile:
             comm: Communicator.
             path: The file.
             mode: MPI's mode.
+
+        Raises:
+            OSError: If a rank cannot open it, on all of them.
         """
         self._comm = comm
-        self._file = MPI.File.Open(comm, path, mode)
+        self._do(self._open, path, mode)
 
     def size(self) -> int:
         """Number of bytes."""
@@ -76,6 +79,9 @@ class SharedFile:
     def close(self) -> None:
         """Close it."""
         self._file.Close()
+
+    def _open(self, path: Path, mode: int) -> None:
+        self._file = MPI.File.Open(self._comm, path, mode)
 
     def _do(self, work: Any, *arguments: Any) -> None:
         with agreed(self._comm):
@@ -153,7 +159,11 @@ def opened(comm: MPI.Intracomm, path: Path) -> Iterator[SharedFile]:
             except OSError as error:
                 text = f"cannot read the checkpoint {path}: {error.strerror}"
                 raise OSError(error.errno, text) from error
-    file = SharedFile(comm, path, MPI.MODE_RDONLY)
+    try:
+        file = SharedFile(comm, path, MPI.MODE_RDONLY)
+    except OSError as error:
+        text = f"cannot read the checkpoint {path}: {error.strerror}"
+        raise OSError(error.errno, text) from error
     try:
         yield file
     finally:
