@@ -8,6 +8,7 @@
 #include <dolfinx/io/VTKFile.h>
 #include <filesystem>
 #include <optional>
+#include <petscsystypes.h>
 #include <stdexcept>
 
 namespace contactx_dolfinx
