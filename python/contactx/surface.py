@@ -15,10 +15,10 @@ import numpy.typing as npt
 
 import basix
 from contactx import cpp as core
-from contactx._host.nodes import cells_of, geometry_of
+from contactx._host.nodes import cells_of, geometry_of, in_cells
 from contactx._host.parallel.halo import Halo
 from contactx._host.parallel.reduce import agreed, anywhere, total
-from dolfinx import cpp, fem, mesh
+from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
 # Kinds of cells that contact is made for
@@ -180,7 +180,6 @@ class Surface:
             )
         tdim = topology.dim
         topology.create_connectivity(tdim - 1, tdim)
-        topology.create_connectivity(tdim, tdim - 1)
         facet_cells = topology.connectivity(tdim - 1, tdim)
         inner = np.diff(facet_cells.offsets)[self.facets] != 1
         if topology.comm.size > 1:
@@ -192,13 +191,9 @@ class Surface:
                 "a contact surface must be part of the boundary. Two bodies that share the nodes "
                 "of their common face are one: in gmsh do not fragment the bodies"
             )
-        cells = facet_cells.array[facet_cells.offsets[self.facets]]
+        cells, local = in_cells(domain, self.facets)
         mine = cells < topology.index_map(tdim).size_local
-        facets, cells = self.facets[mine], cells[mine]
-        per_cell = cpp.mesh.cell_num_entities(topology.cell_type, tdim - 1)
-        facets_of_cell = topology.connectivity(tdim, tdim - 1).array.reshape(-1, per_cell)
-        local = np.argmax(facets_of_cell[cells] == facets[:, None], axis=1)
-        return cells, local.astype(np.int32)
+        return cells[mine], local[mine]
 
 
 def check_straight(name: str, surface: Surface, V: fem.FunctionSpace, halo: Halo) -> None:

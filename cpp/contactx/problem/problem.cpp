@@ -591,7 +591,7 @@ const Settled& Problem::judge(double rtol, double atol, std::span<double> b)
   const bool is_costly = verdict == Verdict::goes_on and _attempt
                          and _attempt->budget and _number >= *_attempt->budget;
   if (is_costly)
-    failure = this->no_convergence(std::to_string(_number), "max_it");
+    failure = no_convergence(std::to_string(_number), "max_it");
   // Shorter steps may do better where these have made no progress
   const bool is_slow
       = verdict == Verdict::not_finite or verdict == Verdict::stuck;

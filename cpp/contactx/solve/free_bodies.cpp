@@ -84,6 +84,7 @@ VectorXd combined(const MatrixXd& gram, const VectorXd& work)
     throw std::domain_error("rigid motions of the bodies are not independent");
   return factors.solve(work);
 }
+
 /// Part of displacements that is a combination of motions; collective.
 /// @param[in] motions Displacements by each at owned dofs (shape=(k, n)).
 /// @param[in] u Displacements, those of owned dofs first (shape=(>= n)).

@@ -168,6 +168,8 @@ public:
   /// @brief Find where free bodies that no force acts on give way to what
   /// penetrates them, by search and gaps of now; nothing is closed. Collective.
   /// @param[in] forces Forces at the iterate.
+  /// @param[in] is_first Whether they have not gone anywhere yet: what touches
+  /// stays, while those that go leave a gap.
   /// @return Where they go to in first order; nothing if nothing penetrates
   /// them.
   std::optional<Escape> escape(const Forces& forces, bool is_first);

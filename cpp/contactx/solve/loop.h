@@ -211,7 +211,7 @@ private:
   std::shared_ptr<FreeBodies> _bodies;
   ActiveSet _active_set;
   InteriorPoint _path;
-  // Whether a corrector is to be solved for that no solver has asked for
+  // Whether the iterate is judged again as it is: a step was not taken
   bool _stays = false;
   Forces _forces;
   StepLength _length;

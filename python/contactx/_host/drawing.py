@@ -15,9 +15,9 @@ import numpy.typing as npt
 import basix
 from contactx import cpp as core
 from contactx._host.nodal_values import matching_nodes
-from contactx._host.nodes import cells_of, geometry_of, linear_cells, parts_of_cells
+from contactx._host.nodes import cells_of, geometry_of, in_cells, linear_cells, parts_of_cells
 from contactx._host.parallel.reduce import agreed
-from dolfinx import cpp, fem, mesh
+from dolfinx import fem, mesh
 
 if TYPE_CHECKING:
     from contactx.contact import Contact
@@ -142,16 +142,8 @@ def gather(contacts: Sequence[Contact], scale: float) -> Scene | None:
 def _boundary(V: fem.FunctionSpace) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
     """Cells of the boundary's facets that this rank has, and the number of the facet in each."""
     topology = V.mesh.topology
-    tdim = topology.dim
-    topology.create_connectivity(tdim - 1, tdim)
-    topology.create_connectivity(tdim, tdim - 1)
-    exterior = mesh.exterior_facet_indices(topology)
-    cells_of_facets = topology.connectivity(tdim - 1, tdim)
-    cells = cells_of_facets.array[cells_of_facets.offsets[exterior]]
-    per_cell = cpp.mesh.cell_num_entities(topology.cell_type, tdim - 1)
-    of_cells = topology.connectivity(tdim, tdim - 1).array.reshape(-1, per_cell)
-    local = np.argmax(of_cells[cells] == exterior[:, None], axis=1)
-    return cells, local.astype(np.int32)
+    topology.create_connectivity(topology.dim - 1, topology.dim)
+    return in_cells(V.mesh, mesh.exterior_facet_indices(topology))
 
 
 def _plane(V: fem.FunctionSpace) -> tuple[Index, Index, Index]:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from contactx import cpp as core
-from dolfinx import fem, mesh
+from dolfinx import cpp, fem, mesh
 
 type Int32 = npt.NDArray[np.int32]
 type Array = npt.NDArray[np.float64]
@@ -118,3 +118,26 @@ def original_nodes(V: fem.FunctionSpace) -> npt.NDArray[np.int64]:
 def _num_nodes(V: fem.FunctionSpace) -> int:
     index_map = V.dofmap.index_map
     return int(index_map.size_local + index_map.num_ghosts)
+
+
+def in_cells(
+    domain: mesh.Mesh, facets: npt.NDArray[np.int32]
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    """Where facets are in cells.
+
+    Args:
+        domain: The mesh.
+        facets: Facets of this rank, shape (n,).
+
+    Returns:
+        The first cell of each, and its number in that, shape (n,).
+    """
+    topology, tdim = domain.topology, domain.topology.dim
+    topology.create_connectivity(tdim - 1, tdim)
+    topology.create_connectivity(tdim, tdim - 1)
+    cells_of_facet = topology.connectivity(tdim - 1, tdim)
+    cells = cells_of_facet.array[cells_of_facet.offsets[facets]]
+    per_cell = cpp.mesh.cell_num_entities(topology.cell_type, tdim - 1)
+    facets_of_cell = topology.connectivity(tdim, tdim - 1).array.reshape(-1, per_cell)
+    local = np.argmax(facets_of_cell[cells] == facets[:, None], axis=1)
+    return cells, local.astype(np.int32)

@@ -154,15 +154,14 @@ def opened(comm: MPI.Intracomm, path: Path) -> Iterator[SharedFile]:
                     f"there is no checkpoint {path}. Give another file, or leave restart out "
                     "(manual: errors/restart-refused)"
                 )
-            try:
-                open(path, "rb").close()
-            except OSError as error:
-                text = f"cannot read the checkpoint {path}: {error.strerror}"
-                raise OSError(error.errno, text) from error
     try:
+        with agreed(comm):
+            # Where MPI cannot open a file it does not say why
+            if comm.rank == 0:
+                open(path, "rb").close()
         file = SharedFile(comm, path, MPI.MODE_RDONLY)
     except OSError as error:
-        text = f"cannot read the checkpoint {path}: {error.strerror}"
+        text = f"cannot read the checkpoint {path}: {error.strerror or error}"
         raise OSError(error.errno, text) from error
     try:
         yield file
