@@ -60,7 +60,7 @@ struct Scales
   double stiffness = 0; ///< norm of the stiffness of its nodes, force/length
   /// Forces that residuals are relative to, at least; from the step's first
   /// residual on
-  std::optional<double> force;
+  std::optional<double> force = {};
 
   /// @brief Forces that would deform bodies by the size of the scene.
   double deforming_force() const { return stiffness * length; }

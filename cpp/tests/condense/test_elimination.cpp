@@ -336,7 +336,7 @@ TEST_P(Eliminated, SurfacesFeelTheirNeighbours)
     for (const std::int8_t held : {stick, slip})
       for (unsigned seed = 0; seed < 10; ++seed)
       {
-        const std::int8_t status = size == 1 ? slip : held;
+        const std::int8_t status = size == 1 ? std::int8_t(slip) : held;
         Saddle saddle(gdim, 7,
                       {{{0, 4, 2}, {1, 5}, size, {status, status, stick}}}, {},
                       seed);
