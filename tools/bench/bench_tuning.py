@@ -5,7 +5,8 @@
 Each number of ``condense/solver/tuning.h`` is a half and twice of what it is, or about that, while
 the others stay. On five slabs of a dam's face, solved by blocks of bodies, in three stages; on a
 rubber block that a ball presses in, in four steps, whose hierarchies and factors age with its
-stiffness.
+stiffness; on the common Hertz problem, surface-to-surface, whose nodes open one iterate after the
+other.
 
     python tools/bench/bench_tuning.py
     python tools/bench/bench_tuning.py max_change
@@ -17,6 +18,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+import hertz_case
 import runner
 import tables
 
@@ -31,16 +33,18 @@ from dolfinx import fem, mesh
 
 from dam_scene import Dam, DamSetting, run
 from meshes import DamFace
+from scenes import HertzSphere
 from scenes.tuning import tuned
 
 VALUES: dict[str, tuple[float, ...]] = {
     "renewal_cost": (10, 20, 80),
     "slow_rate": (6, 24),
     "max_iterations": (60, 240),
-    "max_change": (0.05, 0.075, 0.3),
+    "max_change": (0.0, 0.05, 0.075, 0.3),
     "short_wave_exponent": (0.0, 0.2, 0.5),
 }
-SCENES = ("slabs", "rubber")
+SCENES = ("slabs", "rubber", "sphere")
+SPHERE = 0.005
 SLABS = DamFace(slabs=5, height=24.0, rows=20, layers=2, rockfill_cells=4, rockfill_rows=14)
 STAGES = 3
 COLUMNS: list[tables.Column] = [
@@ -66,7 +70,7 @@ def measure(scene: str, number: str, value: float) -> dict[str, Any]:
     """
     others = {number: value if number.startswith(("max_change", "short")) else int(value)}
     with tuned(**(others if number else {})):
-        return {"slabs": slabs, "rubber": rubber}[scene]()
+        return {"slabs": slabs, "rubber": rubber, "sphere": sphere}[scene]()
 
 
 def totals(reports: Sequence[cx.Report]) -> dict[str, Any]:
@@ -86,6 +90,15 @@ def slabs() -> dict[str, Any]:
 
     run(dam, STAGES, creep=False, each=each, progress=False)
     return {**totals(reports), **meter.read()}
+
+
+def sphere() -> dict[str, Any]:
+    """The common Hertz problem, see ``measure``."""
+    data = hertz_case.read_mesh(hertz_case.mesh_file(SPHERE))
+    meter = runner.Meter()
+    scene = HertzSphere(data, "finite", method="surface-to-surface")
+    scene.problem.solve()
+    return {**totals([scene.problem.report]), **meter.read()}
 
 
 def rubber() -> dict[str, Any]:

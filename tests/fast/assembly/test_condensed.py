@@ -355,7 +355,8 @@ def test_another_preconditioner_is_refused():
             problem.solve()
 
 
-def test_coarse_levels_are_kept_while_the_same_nodes_touch(monkeypatch):
+def updates_of_coarse_levels(monkeypatch):
+    """A list that grows with each."""
     updates, update = [], Hierarchy.update
 
     def counted(self):
@@ -363,6 +364,11 @@ def test_coarse_levels_are_kept_while_the_same_nodes_touch(monkeypatch):
         update(self)
 
     monkeypatch.setattr(Hierarchy, "update", counted)
+    return updates
+
+
+def test_coarse_levels_are_kept_while_the_same_nodes_touch(monkeypatch):
+    updates = updates_of_coarse_levels(monkeypatch)
     scene = Blocks(CellType.tetrahedron, n_upper=4, n_lower=3)
     problem = scene.problem(scene.contact(), petsc_options={"pc_type": "condensed"})
     for down, wanted in ((0.03, 1), (0.04, 0)):
@@ -371,6 +377,27 @@ def test_coarse_levels_are_kept_while_the_same_nodes_touch(monkeypatch):
         problem.solve()
         assert problem.report.iterations >= 3
         assert len(updates) == wanted
+
+
+def test_coarse_levels_are_kept_while_few_nodes_open(monkeypatch):
+    """For the same solution and iterates, at few more Krylov iterations."""
+    updates = updates_of_coarse_levels(monkeypatch)
+    found = []
+    for max_change in (0.0, 0.15):
+        with tuned(max_change=max_change):
+            scene = scenes.HertzSphere(
+                meshes.hertz_sphere(0.02), "finite", petsc_options={"pc_type": "condensed"}
+            )
+        updates.clear()
+        scene.problem.solve()
+        report = scene.problem.report
+        found.append((len(updates), report.iterations, report.krylov, scene.contact.force[2]))
+    often, seldom = found
+    changing = sum(row.status_changes > 0 for row in report.history)
+    assert often[0] == changing > seldom[0] + 2
+    assert seldom[1] == often[1]
+    assert seldom[2] <= 1.1 * often[2]
+    assert seldom[3] == pytest.approx(often[3], rel=1e-10)
 
 
 @pytest.mark.parametrize("method", METHODS)

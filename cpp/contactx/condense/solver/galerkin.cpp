@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "galerkin.h"
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
 
 using namespace contactx;
@@ -16,10 +19,17 @@ Galerkin::Galerkin(const Numbering& numbering, MatrixPtr slave_rows,
     _rows = _algebra.product(*slave_rows, *_prolongations.front());
 }
 
-bool Galerkin::serves(const ContactUpdate& update) const
+bool Galerkin::serves(const ContactUpdate& update, double max_change) const
 {
-  return mesh::everywhere(_ranks, not update.springs and not _has_springs
-                                      and update.places == _constrained);
+  std::vector<std::int32_t> others;
+  std::ranges::set_symmetric_difference(update.places, _constrained,
+                                        std::back_inserter(others));
+  std::array counts{std::ssize(others), std::ssize(update.places),
+                    std::ptrdiff_t(update.springs or _has_springs)};
+  _ranks.reduce(std::span<std::int64_t>(counts), mesh::Reduction::sum);
+  return counts[2] == 0
+         and static_cast<double>(counts[0])
+                 <= max_change * static_cast<double>(counts[1]);
 }
 
 void Galerkin::update(const ContactUpdate& update,

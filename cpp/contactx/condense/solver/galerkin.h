@@ -28,9 +28,12 @@ public:
   Galerkin(const Numbering& numbering, MatrixPtr slave_rows,
            std::vector<MatrixPtr> prolongations);
 
-  /// @brief Whether the constrained displacements are those of the last update,
-  /// and there are no springs now or then; the same on all ranks.
-  bool serves(const ContactUpdate& update) const;
+  /// @brief Whether the constrained displacements are all but those of the last
+  /// update, and there are no springs now or then; the same on all ranks.
+  /// @param[in] update What contact changes now.
+  /// @param[in] max_change Number of displacements that are constrained only
+  /// now or only then, over those constrained now, up to which they are.
+  bool serves(const ContactUpdate& update, double max_change) const;
 
   /// @brief Bring the matrices of the coarser levels from one state of the
   /// contacts to another.

@@ -64,7 +64,7 @@ void MultigridSolver::prepare(std::shared_ptr<CondensedOperator> K_c)
   if (_updated_for != _K_c)
   {
     const ContactUpdate change = _K_c->contact_update();
-    _serves = _galerkin->serves(change);
+    _serves = _galerkin->serves(change, _tuning.max_change);
     update(change, not _serves);
   }
 }

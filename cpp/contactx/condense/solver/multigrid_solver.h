@@ -13,8 +13,9 @@ namespace contactx::condense
 ///
 /// Aggregates and prolongations are those of the bulk without contact, made
 /// once. What contact changes in the condensed matrix is few rows, and its
-/// projections are added to the matrices of the coarser levels, so these are
-/// always the Galerkin products of the current matrix. On the finest level the
+/// projections are added to the matrices of the coarser levels wherever more
+/// than a few displacements are constrained that were not, or no longer, and
+/// where the iterations do not converge without. On the finest level the
 /// condensed matrix is applied as it is.
 ///
 /// Where the bulk's own matrix changes the hierarchy is made anew once it has

@@ -18,10 +18,12 @@ struct Tuning
   /// Krylov iterations with springs in the place of soft bodies after which a
   /// coarse model takes it
   int max_iterations = 120;
-  /// Difference between what contact adds to a block now and what it added when
-  /// this was factorised, relative in the Frobenius norm and times ln(residual
-  /// / target), up to which the factors are kept: iterations with old factors
-  /// grow with both
+  /// Difference between what contact is now and what it was when a block was
+  /// factorised or multigrid's coarser levels were brought up to it, up to which
+  /// these are kept: of a block what contact adds, relative in the Frobenius
+  /// norm and times ln(residual / target), as iterations with old factors grow
+  /// with both; of the levels the part of the constrained displacements that
+  /// are others
   double max_change = 0.15;
   /// Exponent of the stiffness for the shortest waves in the geometric mean of
   /// a spring's: on slabs of a dam's face 0 takes a fifth to two fifths more
