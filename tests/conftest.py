@@ -8,14 +8,15 @@ from pathlib import Path
 
 import pytest
 
-import contactx as cx
-
-from tether import tether
-
-# One process may wait for a form that another one compiles
+# DOLFINx asks when it is imported. One process may wait for a form that another one compiles, and
+# the compiler need not make the most of what runs on a few cells
 os.environ["XDG_CONFIG_HOME"] = str(Path(__file__).parent / "settings")
-# Forms are compiled once and kept from one run to the next, until `make clean`
+# Forms are compiled once, for scripts that tests launch too, and kept until `make clean`
 os.environ["XDG_CACHE_HOME"] = str(Path(__file__).parents[1] / "build" / "cache")
+
+import contactx as cx  # noqa: E402
+
+from tether import tether  # noqa: E402
 
 
 def pytest_configure(config):

@@ -141,7 +141,6 @@ class Told:
         load: float = -0.01,
         **options: Any,
     ):
-        """Make it."""
         self.u = u = fem.Function(V)
         self.load = fem.Constant(V.mesh, np.array([0.0, load]))
         F = form(u) if form else story.elasticity(u, 1.0, 0.3)

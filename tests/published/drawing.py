@@ -23,12 +23,7 @@ _COLOURS = 48
 
 
 def picture(answer: Answer, path: Path) -> None:
-    """Draw what an answer draws into a file of few colours.
-
-    Args:
-        answer: The answer.
-        path: The PNG file.
-    """
+    """Draw what an answer draws into a file of few colours."""
     matplotlib = import_plotter("matplotlib")
     matplotlib.use("Agg")
     pyplot = import_plotter("matplotlib.pyplot")
@@ -54,10 +49,6 @@ def curve(
     """A drawing of nodal values, and of a formula beside them.
 
     Args:
-        x: Places, shape (n,).
-        y: Values, shape (n,).
-        labels: Names of both.
-        exact: The formula.
         end: Largest place that is shown; all of them if None.
     """
     places, values = np.asarray(x), np.asarray(y)
@@ -85,7 +76,6 @@ def deformed(
     """A drawing of a plane mesh, displaced, coloured by how far.
 
     Args:
-        u: Displacement.
         scale: Factor of the drawn displacement.
         box: Least x, largest x, least y and largest y that are shown; everything if None.
     """
@@ -136,9 +126,6 @@ def surface(
     """A drawing of nodal values on a plane surface in space.
 
     Args:
-        x: Places, shape (n, 2 or 3).
-        values: Values, shape (n,).
-        label: Their name.
         end: Largest distance from the origin that is shown along an axis.
     """
     places, shown = x[:, :2].copy(), values.copy()

@@ -64,11 +64,7 @@ _MISSING = """
 
 
 def counts(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """How many values and problems there are, from where, and how far off.
-
-    Args:
-        rows: What was recorded of cases.
-    """
+    """How many values and problems there are, from where, and how far off."""
     case_of = {case.name: case for case in CASES}
     cases = [case_of[row["name"]] for row in rows]
     origins = [case.origin for case in cases]
@@ -104,12 +100,7 @@ def line(row: Mapping[str, Any], pictures: str) -> str:
 
 
 def page(rows: Sequence[Mapping[str, Any]], pictures: str) -> str:
-    """The page of the manual.
-
-    Args:
-        rows: What was recorded of cases.
-        pictures: Their folder.
-    """
+    """The page of the manual."""
     head = ("", "benchmark", "source", "quantity", "published", "contactx", "error", "iterations")
     lines = [_INTRODUCTION.format(**counts(rows)), "| " + " | ".join(head) + " |"]
     lines += ["|" + " --- |" * len(head), *(line(row, pictures) for row in rows)]

@@ -56,11 +56,8 @@ class HalfSpace:
     """A section of a half-space below y = 0, axisymmetric or in plane strain, or a quarter of it.
 
     Attributes:
-        u: Displacement.
         place: Place of the indenter.
         friction: Coefficient of friction, where there may be some.
-        contact: Contact of its surface.
-        problem: The problem.
         x: Positions of the slave nodes, shape (n, 3).
     """
 
@@ -84,13 +81,11 @@ class HalfSpace:
             grid: Coordinates of the cells' ends along each axis; the last one downward.
             obstacle: The indenter, by its place.
             start: Height of the place at first.
-            axisymmetric: Whether the grid is a meridian section.
             part: How far from the middle the surface is part of the contact.
             symmetric: Axes whose first coordinate is a plane of symmetry.
             sides: Whether the far side along the first axis is one, too.
             rubbed: Whether there may be friction, none at first.
             law: Residual of the half-space; elastic if None.
-            options: Options of the contact.
         """
         gdim = len(grid)
         n = [len(axis) - 1 for axis in grid]

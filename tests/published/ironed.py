@@ -48,7 +48,6 @@ class _Run:
     """Load steps of a test.
 
     Attributes:
-        iterations: Linear solves of each.
         forces: Force on the die's top at the end of each given one, by its t.
         displacements: Displacement at the same t.
     """
@@ -65,8 +64,6 @@ def simo_miehe(u: fem.Function, young: Any, nu: float) -> ufl.Form:
 
     Args:
         u: Displacement, plane strain.
-        young: Young's modulus at small strains.
-        nu: Poisson's ratio at small strains.
     """
     mu, bulk = young / (2 * (1 + nu)), young / (3 * (1 - 2 * nu))
     F = ufl.Identity(2) + ufl.grad(u)
@@ -127,7 +124,6 @@ def _run(times: Sequence[float], block_is_slave: bool, method: str) -> _Run:
     Args:
         times: The t at which load steps end.
         block_is_slave: Whether the block's top is the slave, or the die's arc.
-        method: Method of contact.
     """
     data = _bodies()
     tags = data.facet_tags

@@ -32,11 +32,8 @@ class Leaves:
     """Leaves below y = 0, each of its own length, the first one at the top.
 
     Attributes:
-        u: Displacement.
         F: Residual of the leaves alone, in plane stress without a Poisson's ratio.
-        tags: Tags of their facets.
         ds: Measure of tagged facets.
-        bcs: The clamp.
         contacts: Contact of each leaf with the one above it.
     """
 
@@ -44,10 +41,7 @@ class Leaves:
         """Create them, without a load.
 
         Args:
-            lengths: Length of each leaf.
-            thick: Thickness of each.
             h: Length of the cells, of which there are two over the thickness.
-            friction: Coefficient of friction.
         """
         parts = [
             grid((0, -(k + 1) * thick), (length, -k * thick), (round(length / h), 2))

@@ -22,8 +22,6 @@ class Answer:
     """What contactx gives.
 
     Attributes:
-        value: The quantity.
-        iterations: Linear solves of each accepted load step.
         draw: Draws a small picture on axes of matplotlib.
         expected: The value that a closed formula gives for what was computed, such as for a force
             that came of a given displacement; None where the value stands in the record.

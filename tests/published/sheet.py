@@ -82,7 +82,6 @@ class Plastic:
 
         Args:
             u: Displacement, plane strain.
-            degree: Degree of the quadrature.
         """
         domain = u.function_space.mesh
         cell = domain.basix_cell()
@@ -190,7 +189,6 @@ def bent(
     """Bend the sheet and let it go.
 
     Args:
-        friction: Coefficient of friction.
         cells: Cells along the sheet.
 
     Returns:

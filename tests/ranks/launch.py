@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +25,8 @@ LIMIT = 120.0
 LONGEST = 1800.0
 # A few that hang are skipped, more are not waited for
 _MOST = 3
+# Whether this process has waited for all others
+_ALONE = threading.Lock()
 _LOCK = Path(tempfile.gettempdir()) / f"contactx-launch-{os.getuid()}.lock"
 
 
@@ -48,8 +51,6 @@ def launch(
 
     Args:
         script: The script; helpers of tests and demos can be imported in it.
-        ranks: Number of ranks.
-        arguments: Arguments of the script.
         limit: Seconds after which it hangs, unless it begins parts with limits of their own.
         longest: Seconds for all of them.
 
@@ -61,7 +62,7 @@ def launch(
         Failure: If the script fails otherwise, with what it printed.
     """
     command = [mpiexec(), "-n", str(ranks), sys.executable, watch.__file__, str(limit)]
-    with tempfile.TemporaryDirectory() as folder, _alone():
+    with tempfile.TemporaryDirectory() as folder, alone():
         # The ranks end with the launcher. Ctrl-C is for this process, which ends the launcher
         process = subprocess.Popen(
             tethered([*command, str(script), *arguments]),
@@ -97,10 +98,7 @@ def launch_together(
     The script takes a folder and names, and writes a file for each name in turn.
 
     Args:
-        script: The script.
-        ranks: Number of ranks.
         folder: Where the files go.
-        names: What is to be run.
         file: File of a name.
 
     Returns:
@@ -133,8 +131,14 @@ def _variables(ranks: int) -> dict[str, str]:
 
 
 @contextmanager
-def _alone() -> Iterator[None]:
-    """Wait until no other launch is under way: two of them would share the cores."""
-    with _LOCK.open("w") as file:
+def alone() -> Iterator[None]:
+    """Wait until no other launch is under way: two of them would share the cores.
+
+    Those within the block of a process that has waited go on at once.
+    """
+    if _ALONE.locked():
+        yield
+        return
+    with _ALONE, _LOCK.open("w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield

@@ -92,7 +92,6 @@ def differences(found: dict[str, Array], expected: dict[str, Array], tolerance: 
     Args:
         found: What ``Outcome.gather`` gave.
         expected: The same of another run.
-        tolerance: The part.
     """
     if set(found) != set(expected):
         return [f"{sorted(set(found) ^ set(expected))} in one of them"]

@@ -70,10 +70,6 @@ def quadratic_triangles() -> Iterator[cx.ContactProblem]:
     yield from _dragged_quadratic(CellType.triangle, 6, 7, friction=0.3)
 
 
-def quadratic_quadrilaterals() -> Iterator[cx.ContactProblem]:
-    yield from _dragged_quadratic(CellType.quadrilateral, 6, 7)
-
-
 def quadratic_tetrahedra() -> Iterator[cx.ContactProblem]:
     yield from _dragged_quadratic(CellType.tetrahedron, 3, 4, friction=0.3)
 

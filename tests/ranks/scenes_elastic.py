@@ -8,7 +8,6 @@ from collections.abc import Iterator
 
 import cattaneo_mindlin
 import hertz_axisymmetric
-import hertz_cylinder
 import numpy as np
 
 import contactx as cx
@@ -23,12 +22,6 @@ from scenes.driven import DrivenBlock
 from scenes.problems import make_problem, pair_of
 from scenes.tower import Tower
 from story import displacement, elasticity, fix, traction
-
-
-def hertz_2d() -> Iterator[cx.ContactProblem]:
-    problem, _ = hertz_cylinder.create(0.02, "finite")
-    problem.solve()
-    yield problem
 
 
 def axisymmetric() -> Iterator[cx.ContactProblem]:
@@ -55,14 +48,6 @@ def hertz_condensed() -> Iterator[cx.ContactProblem]:
         scene.update(t)
         scene.problem.solve()
         yield scene.problem
-
-
-def hexahedra() -> Iterator[cx.ContactProblem]:
-    """Facets that warp; the outer ring of slave nodes hangs over."""
-    scene = Blocks(CellType.hexahedron, down=0.1, n_upper=4, n_lower=5)
-    problem = scene.problem(scene.contact())
-    problem.solve()
-    yield problem
 
 
 def tied() -> Iterator[cx.ContactProblem]:
@@ -124,14 +109,6 @@ def sliding_block() -> Iterator[cx.ContactProblem]:
         yield scene.problem
 
 
-def sliding_3d() -> Iterator[cx.ContactProblem]:
-    scene = DrivenBlock(CellType.hexahedron, n_upper=4, n_lower=5, width=2.0, shift=0.4)
-    for place in ((0.0, 0.0, -0.05), (0.1, 0.02, -0.05), (0.2, 0.15, -0.05)):
-        scene.top.move(place)
-        scene.problem.solve()
-        yield scene.problem
-
-
 def friction_condensed() -> Iterator[cx.ContactProblem]:
     scene = HertzSphere(
         meshes.hertz_sphere(0.1), "finite", friction=0.3, petsc_options={"pc_type": "condensed"}
@@ -140,10 +117,6 @@ def friction_condensed() -> Iterator[cx.ContactProblem]:
         scene.update(t)
         scene.problem.solve()
         yield scene.problem
-
-
-def dragged_condensed() -> Iterator[cx.ContactProblem]:
-    yield from _dragged(CellType.hexahedron, (4, 3, 2), (16, 4, 2), 2, pc_type="condensed")
 
 
 def partial_slip() -> Iterator[cx.ContactProblem]:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import rigid_cylinder
 import stacked_blocks
 
 import contactx as cx
@@ -36,12 +35,6 @@ def plane() -> Iterator[cx.ContactProblem]:
         scene.top.move(place)
         scene.problem.solve()
         yield scene.problem
-
-
-def cylinder() -> Iterator[cx.ContactProblem]:
-    problem, _ = rigid_cylinder.create(0.04, "finite")
-    problem.solve()
-    yield problem
 
 
 def beam() -> Iterator[cx.ContactProblem]:
@@ -95,10 +88,6 @@ def _pressed(obstacle: Obstacle, **options: Any) -> Iterator[cx.ContactProblem]:
         scene.bcs[-2].g.value[...] = 0.1 * np.sign(down - 0.06)
         problem.solve()
         yield problem
-
-
-def corner_2d() -> Iterator[cx.ContactProblem]:
-    yield from _corner(CellType.quadrilateral, 6)
 
 
 def corner_3d() -> Iterator[cx.ContactProblem]:
@@ -164,24 +153,6 @@ def cut() -> Iterator[cx.ContactProblem]:
     for _ in scene.steps(1):
         yield scene.problem
     assert scene.calls == [1.0, 0.5, 1.0, 0.75, 1.0]
-
-
-def valley() -> Iterator[cx.ContactProblem]:
-    """Two planes, and a node at the bottom that may need both."""
-    data = meshes.blocks(CellType.quadrilateral, (9, 4), (1, 1))
-    domain, tags = meshes.single(data, Tag.UPPER)
-    u = displacement(domain)
-    foot = cx.Surface(tags, Tag.UPPER_CONTACT)
-    normals = [(np.sin(angle), np.cos(angle)) for angle in (0.2, -0.2)]
-    contacts = [cx.Contact(foot, cx.Plane((1 / 3, 0), n), friction=0.3) for n in normals]
-    down = fix(u, tags, 1, 0.0, Tag.UPPER_TOP)
-    problem = make_problem(
-        elasticity(u, 1.0, NU), u, contacts, [fix(u, tags, 0, 0.0, Tag.UPPER_TOP), down]
-    )
-    for depth in (0.03, 0.06, 0.09):
-        down.g.value[...] = -depth
-        problem.solve()
-        yield problem
 
 
 def loose_discs() -> Iterator[cx.ContactProblem]:

@@ -30,11 +30,7 @@ RIGHT = (MIDDLE[0] - SIDE) / (MIDDLE[2] - DOWN)
 
 
 def mesh(h: float) -> MeshData:
-    """Mesh the ball and the plate, of which the whole boundaries are tagged.
-
-    Args:
-        h: Cell size.
-    """
+    """Mesh the ball and the plate, of which the whole boundaries are tagged."""
 
     def recipe(gmsh: ModuleType) -> None:
         occ, model = gmsh.model.occ, gmsh.model
@@ -56,21 +52,9 @@ def mesh(h: float) -> MeshData:
 
 
 class BallAtEdge:
-    """The plate lies on its bottom, the ball's upper part is moved down; frictionless.
-
-    Attributes:
-        contact: Contact of the whole boundaries.
-        problem: The problem.
-    """
+    """The plate lies on its bottom, the ball's upper part is moved down; frictionless."""
 
     def __init__(self, h: float, *, swapped: bool = False, **options: Any):
-        """Create the bodies.
-
-        Args:
-            h: Cell size.
-            swapped: Whether the plate is the slave.
-            options: Options of the contact.
-        """
         data = mesh(h)
         tags, u = data.facet_tags, displacement(data.mesh)
         V = u.function_space

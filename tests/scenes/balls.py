@@ -29,8 +29,6 @@ def stack(gdim: int, layers: int, width: int) -> np.ndarray:
     """Centres of layers of balls, every other one with one ball less, a little off their places.
 
     Args:
-        gdim: 2 or 3.
-        layers: Number of layers.
         width: Balls along a side of the lowest one.
     """
     centres = [
@@ -46,9 +44,7 @@ class LooseBalls:
     """Nothing but contact holds the balls; there is no weight.
 
     Attributes:
-        u: Displacement.
         contacts: Of all balls with each other, with the floor, the lid and the walls.
-        problem: The problem.
     """
 
     def __init__(
@@ -58,10 +54,7 @@ class LooseBalls:
 
         Args:
             gdim: 2 for discs.
-            layers: Number of layers.
             width: Balls along a side of the lowest one.
-            size: Of cells.
-            options: Options of the contacts.
         """
         self.centres = stack(gdim, layers, width)
         data = self._mesh(size)

@@ -100,9 +100,7 @@ class Bearing:
     """The inner ring is pushed down, the outer one is held.
 
     Attributes:
-        u: Displacement.
         contacts: Of the rollers with the inner and with the outer ring.
-        problem: The problem.
     """
 
     def __init__(self, size: float = 0.06, **options: Any):
@@ -110,7 +108,6 @@ class Bearing:
 
         Args:
             size: Of cells where rollers touch rings.
-            options: Options of the contacts.
         """
         data = make_mesh(size)
         assert data.cell_tags is not None and data.facet_tags is not None

@@ -36,9 +36,6 @@ def cantilever(
 
     Args:
         cells: Number along it; six across.
-        material: Residual by displacement, Young's modulus and Poisson's ratio.
-        nu: Poisson's ratio.
-        options: Options of the contact.
     """
     domain = mesh.create_rectangle(
         MPI.COMM_WORLD, [[0, 0], [LENGTH, THICKNESS]], [cells, 6], mesh.CellType.quadrilateral
@@ -69,7 +66,6 @@ def leaves(cells: int, **options: Any) -> cx.Report:
 
     Args:
         cells: Number along the longest leaf; one across.
-        options: Options of the contacts.
     """
     parts = []
     for i in range(LEAVES):

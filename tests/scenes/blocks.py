@@ -25,14 +25,7 @@ def dimension(cell: mesh.CellType) -> int:
 
 
 class Blocks:
-    """An upper block pressed on a wider lower one that it does not match.
-
-    Attributes:
-        u: Displacement.
-        F: Residual.
-        bcs: The lower block's bottom is fixed, the upper one's top moves down and not sideways.
-        tags: Facet tags.
-    """
+    """An upper block pressed on a wider lower one that it does not match."""
 
     def __init__(
         self,
@@ -48,12 +41,6 @@ class Blocks:
         """Create it.
 
         Args:
-            cell_type: Kind of cells.
-            down: Displacement of the upper block's top.
-            gap: Distance of the blocks.
-            n_upper: Cells an edge of the upper block.
-            n_lower: Cells an edge of the lower block.
-            degree: Degree of the displacement.
             stiffness: Young's modulus of the lower block; that of the upper one is one.
         """
         gdim = dimension(cell_type)

@@ -38,7 +38,6 @@ class Bushing:
 
     Attributes:
         contact: Of the rubber with the sleeve, which begins 2 below it as a rounded funnel.
-        problem: The problem.
     """
 
     def __init__(self, n: int = 6, **options: Any):
@@ -46,7 +45,6 @@ class Bushing:
 
         Args:
             n: Cells over the wall.
-            options: Options of the contact.
         """
         domain = make_mesh(n)
         domain.topology.create_connectivity(1, 2)

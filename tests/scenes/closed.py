@@ -14,9 +14,6 @@ import contactx as cx
 def close_all(contact: cx.Contact) -> Any:
     """Close all nodes that have a pair, and evaluate the law.
 
-    Args:
-        contact: Contact of a problem.
-
     Returns:
         Its slave nodes.
     """

@@ -25,7 +25,6 @@ def check_coulomb(
     """Check Coulomb's law and the normal conditions at slave nodes.
 
     Args:
-        contact: Contact.
         tolerance: Force up to which the conditions were solved.
         which: Which nodes to check, shape (n,); all if None.
 

@@ -41,10 +41,7 @@ class Coupled:
     """Blocks that are pressed together and pushed aside, in one of several formulations.
 
     Attributes:
-        contact: The contact.
-        problem: The problem.
         w: What is solved for.
-        down: Displacement of the top.
     """
 
     def __init__(
@@ -59,9 +56,6 @@ class Coupled:
         Args:
             kind: "plain", "mixed" with the pressure in cells, "mixed, pressure first", "blocks",
                 "MINI", or "neo-Hooke" in MINI's elements.
-            cell: Cells.
-            petsc_options: Options of the solver.
-            options: Options of the contact.
         """
         dim = 2 if cell in (CellType.triangle, CellType.quadrilateral) else 3
         n = ((4, 3), (5, 3)) if dim == 2 else ((3, 3, 2), (4, 4, 2))

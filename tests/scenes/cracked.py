@@ -24,7 +24,6 @@ class Cracked:
     """A unit block, its bottom fixed and its top moved, with a crack in the middle of it.
 
     Attributes:
-        u: Displacement.
         tags: Facet tags of the faces of the crack, the bottom and the top.
     """
 
@@ -32,8 +31,6 @@ class Cracked:
         """Create the block.
 
         Args:
-            gdim: Dimension of space.
-            crack: Whether there is a crack.
             stitch: Whether its faces share the node in the middle of them, too.
         """
         x, cells = grid([0.0] * gdim, [1.0] * gdim, [N] * gdim)

@@ -30,12 +30,8 @@ class DrivenBlock:
     """A unit block whose top is driven, on a rigid plane or on a base whose bottom is driven.
 
     Attributes:
-        u: Displacement.
-        top: The block's top.
         bottom: The base's bottom; None on a plane.
         contact: The block's lower face on the plane or the base.
-        problem: The problem.
-        iterations: Of each step.
         count: Number of slave nodes by status.
     """
 
@@ -57,7 +53,6 @@ class DrivenBlock:
         material: Callable[[fem.Function, Any, float], ufl.Form] = elasticity,
         rigid_base: bool = False,
     ):
-        """Set the problem up, nothing moved yet."""
         self.gdim = gdim = dimension(cell)
         data = meshes.blocks(
             cell,

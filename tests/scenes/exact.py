@@ -42,7 +42,6 @@ def smooth(x: Any, body: Tag, *, slips: bool = True) -> Any:
 
     Args:
         x: UFL coordinates.
-        body: The body.
         slips: Whether k is not zero; without it the displacement is continuous.
     """
     mu, lmbda = _lame(body)
@@ -76,8 +75,6 @@ def hertz(x: Array, body: Tag, middle: float = MIDDLE) -> Array:
 
     Args:
         x: Positions, shape (3, n).
-        body: The body.
-        middle: Middle of the contact.
 
     Returns:
         Displacements, shape (2, n).

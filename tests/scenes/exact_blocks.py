@@ -37,12 +37,7 @@ class Case:
     """Two blocks, one above the other, the upper one the slave.
 
     Attributes:
-        domain: The mesh.
-        tags: Facet tags.
         cells: Cells of each body.
-        u: Displacement.
-        contact: Contact of the two.
-        problem: The problem.
     """
 
     def __init__(
@@ -51,12 +46,7 @@ class Case:
         """Mesh the blocks.
 
         Args:
-            cell: Cell type.
             n: Number of cells along a unit of length of the slave, a multiple of 3.
-            length: Length of the blocks along the first axis; the other ones are 1.
-            method: Method of the contact.
-            degree: Degree of the displacement.
-            tied: Whether the blocks are tied.
         """
         gdim = dimension(mesh.CellType[cell])
         size = (length, *(1.0,) * (gdim - 1))
@@ -138,10 +128,7 @@ def smooth(
     """Solve with a smooth exact solution; all nodes are in contact, the sides carry tractions.
 
     Args:
-        cell: Cell type.
         n: Number of cells along a unit of length of the slave.
-        method: Method of the contact.
-        degree: Degree of the displacement.
         tied: Whether the blocks are tied, and do not slip.
     """
     case = Case(cell, n, 1.0, method, degree=degree, tied=tied)
@@ -172,11 +159,7 @@ def hertz(
     """Solve Hertz's line contact of half-planes cut to blocks, with their exact displacements.
 
     Args:
-        cell: Cell type.
         n: Number of cells along a unit of length of the slave.
-        method: Method of the contact.
-        degree: Degree of the displacement.
-        middle: Middle of the contact.
     """
     case = Case(cell, n, exact.LENGTH, method, degree=degree)
     V = case.u.function_space
@@ -191,7 +174,8 @@ def hertz(
     bc = prescribe(values, case.tags, Tag.UPPER_TOP, Tag.LOWER_BOTTOM, *sides)
     case.solve(case.internal(dict.fromkeys(case.cells, case.u)), bc, offset)
     u = dict.fromkeys(case.cells, high)
-    ratio = (ufl.SpatialCoordinate(case.domain)[0] - middle) / exact.HALF_WIDTH
+    place = fem.Constant(case.domain, middle)
+    ratio = (ufl.SpatialCoordinate(case.domain)[0] - place) / exact.HALF_WIDTH
     p = exact.PEAK * ufl.sqrt(ufl.max_value(1 - ratio**2, 0))
     found = case.errors(u, lambda points: exact.hertz_pressure(points[:, 0], middle), p)
     return {"h": 1 / n, "dofs": len(case.u.x.array), **found}

@@ -49,12 +49,7 @@ TIMES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0)
 
 
 def pin_mesh(n_pin: int, n_hole: int) -> MeshData:
-    """Mesh pin and plate.
-
-    Args:
-        n_pin: Chords of the pin.
-        n_hole: Chords of the hole.
-    """
+    """Mesh pin and plate."""
 
     def recipe(gmsh: ModuleType) -> None:
         model, occ = gmsh.model, gmsh.model.occ
@@ -90,17 +85,13 @@ class PinInHole:
 
     Attributes:
         contact: The pin is the slave.
-        problem: The problem.
     """
 
     def __init__(self, n_pin: int, n_hole: int, bearing: float = BEARING, **options: Any):
         """Create the bodies.
 
         Args:
-            n_pin: Chords of the pin.
-            n_hole: Chords of the hole.
             bearing: Mean pressure, by the pin's diameter.
-            options: Options of the contact.
         """
         data = pin_mesh(n_pin, n_hole)
         tags = data.facet_tags
@@ -144,12 +135,7 @@ class PinInHole:
 
 
 def taper_mesh(h: float, order: int = 1) -> MeshData:
-    """Mesh a quarter of stem and socket.
-
-    Args:
-        h: Cell size.
-        order: Of the cells: those of order 2 are curved.
-    """
+    """Mesh a quarter of stem and socket."""
 
     def recipe(gmsh: ModuleType) -> None:
         model, occ = gmsh.model, gmsh.model.occ
@@ -195,19 +181,11 @@ class Taper:
 
     Attributes:
         contact: The socket is the slave, with friction.
-        problem: The problem.
         largest: Of the forces on the whole stem: what it is pushed in with.
         least: What it is pulled out with, negative.
     """
 
     def __init__(self, h: float, order: int = 1, **options: Any):
-        """Create the bodies.
-
-        Args:
-            h: Cell size.
-            order: Degree of mesh and displacement.
-            options: Options of the contact.
-        """
         data = taper_mesh(h, order)
         tags, u = data.facet_tags, displacement(data.mesh, order)
         young = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))

@@ -27,7 +27,6 @@ class Flying:
 
     Attributes:
         contact: Its lower face on what is below it.
-        dynamics: The problem, with a time step.
     """
 
     def __init__(
@@ -49,18 +48,9 @@ class Flying:
         """Set the problem up.
 
         Args:
-            cell_type: Kind of cells.
-            n: Cells an edge of the upper block.
             obstacle: What the block comes down on; another block if None.
-            friction: Coefficient of friction.
-            tied: Whether the blocks are tied.
-            method: Method of contact; that of the tests if None.
-            degree: Degree of the displacement.
-            dt: Time step.
             young: Young's modulus; the density is 1.
-            held: Whether the lower block's bottom is held.
             aside: Velocity along the first axis.
-            options: Options of ContactDynamics.
         """
         gdim = dimension(cell_type)
         data = meshes.blocks(

@@ -28,7 +28,6 @@ class BentStrip:
     (Green and Naghdi 1965), with linear hardening.
 
     Attributes:
-        problem: The problem.
         punch: Contact with the punch.
         support: Contact with the support.
         history: Plastic strain, and the equivalent one.
@@ -88,10 +87,6 @@ class BentStrip:
 
     def bend(self, way: float, steps: int) -> tuple[int, int]:
         """Move the punch down.
-
-        Args:
-            way: How far.
-            steps: In how many steps of the same length.
 
         Returns:
             Linear solves of accepted steps, and of attempts that failed.

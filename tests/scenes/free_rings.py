@@ -45,9 +45,7 @@ class FreeRings:
     """The inner ring in the outer one, which is fixed at its rim or as free as the inner one.
 
     Attributes:
-        u: Displacement.
         contact: The inner ring is the slave, or the master if it is swapped.
-        problem: The problem.
     """
 
     def __init__(
@@ -68,17 +66,10 @@ class FreeRings:
         """Create them.
 
         Args:
-            n: Number of cells of the inner ring around.
-            n_outer: The same of the outer ring.
-            fixed: Whether the outer ring's rim is fixed.
             larger: By how much the inner ring is larger than the hole.
             shift: By how much the inner ring is off the middle.
             turned: By how many of its facets the inner ring is turned.
             height: Number of cells along the axis; no axis if 0.
-            layers: Number of cells across each ring.
-            swapped: Whether the outer ring is the slave.
-            material: Residual of the bulk of E = 1, nu = 0.3.
-            options: Options of the contact.
         """
         gdim = 2 if height == 0 else 3
         a, b, c = RADII

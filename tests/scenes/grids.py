@@ -75,7 +75,6 @@ def faces(domain: mesh.Mesh, places: Sequence[tuple[int, float]]) -> mesh.MeshTa
     """Tags of faces across the axes of a box, 1, 2, ... in the order of their places.
 
     Args:
-        domain: The mesh.
         places: Axis and coordinate of each face.
     """
     dim = domain.topology.dim

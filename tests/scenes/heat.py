@@ -37,14 +37,7 @@ class HeatedBlocks:
     """The blocks, each of height 1.
 
     Attributes:
-        u: Displacement.
-        T: Temperature.
-        F: Residuals of both.
-        heat: Conditions on the temperature.
-        hold: Conditions on the displacement.
-        contact: Contact of the two.
         conductance: What flows across it.
-        gap: Gap of the cold blocks.
     """
 
     def __init__(
@@ -59,11 +52,8 @@ class HeatedBlocks:
         """Set up.
 
         Args:
-            cell: Cells.
             degree: Degree of displacement and temperature.
-            gap: Gap of the cold blocks.
             h: Coefficient of the conductance.
-            options: Options of the contact.
         """
         self.dim = dim = dimension(cell)
         n = ((4, 3), (5, 3)) if dim == 2 else ((3, 3, 2), (4, 4, 2))

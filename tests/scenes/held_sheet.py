@@ -39,7 +39,6 @@ class HeldSheet:
 
     Attributes:
         place: Centre of the tool, which touches the top at first.
-        contact: Contact with it.
     """
 
     def __init__(
@@ -59,16 +58,9 @@ class HeldSheet:
         """Create the sheet.
 
         Args:
-            tool: Makes the tool.
-            thickness: Thickness.
-            n: Cells along it.
-            gdim: Dimension of space.
             whole: Whether the slave surface is the whole boundary, not the top alone.
             on_ground: Whether the bottom is fixed, not the ends.
             deep: How deep the tool is at first, by its radius.
-            material: Residual by displacement, Young's modulus and Poisson's ratio.
-            audit: What becomes of wrong iterates.
-            options: Options of the contact.
         """
         high = max(2, round(thickness * n / 2))
         ends = [[-1.0, -thickness], [1.0, 0.0]]

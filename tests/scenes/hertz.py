@@ -24,14 +24,7 @@ from story import displacement, elasticity, fix
 
 
 class HertzSphere:
-    """The common Hertz problem with any displacement and a modulus for each body.
-
-    Attributes:
-        F: Residual of the bodies.
-        bcs: Supports; the last one moves the top.
-        problem: The problem.
-        contact: Its contact.
-    """
+    """The common Hertz problem with any displacement and a modulus for each body."""
 
     def __init__(
         self,
@@ -50,16 +43,7 @@ class HertzSphere:
         """Set the problem up.
 
         Args:
-            data: Mesh.
-            sliding: "finite" or "small".
-            down: Displacement of the top.
             young: Young's modulus of each body; 1 where it is not given.
-            friction: Coefficient.
-            search_distance: That of the contact.
-            swapped: Whether the block is the slave.
-            method: That of the contact; the default one if None.
-            degree: Degree of the displacement.
-            options: Those of the problem.
         """
         tags, u = data.facet_tags, displacement(data.mesh, degree)
         E = of_bodies(data, *_moduli(young))
@@ -114,8 +98,6 @@ def pressure_error(
     Nodes within 1.3 contact radii count; Hertz's pressure is that of the computed force.
 
     Args:
-        problem: The solved problem.
-        contact: Its contact.
         young: Young's modulus of each body; 1 where it is not given.
         pressure: Pressures of the slave nodes, shape (n,); the raw ones if None.
     """
@@ -136,8 +118,6 @@ def integrated_error(
     What is within 1.3 contact radii counts; Hertz's pressure is that of the computed force.
 
     Args:
-        contact: The contact of the solved problem.
-        tags: Facet tags.
         young: Young's modulus of each body; 1 where it is not given.
     """
     hertz = hertz_of(contact, young)

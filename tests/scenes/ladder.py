@@ -28,7 +28,6 @@ def lean(degrees: float, **options: Any) -> tuple[cx.Report, fem.Function]:
 
     Args:
         degrees: Its angle with the floor.
-        options: Options of the contacts.
 
     Returns:
         What the step took, and the displacement.

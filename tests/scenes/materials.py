@@ -17,9 +17,6 @@ def neo_hookean(u: fem.Function, young: Any, nu: Any, degree: int | None = None)
     """Residual of compressible neo-Hookean bodies, in plane strain where the mesh is plane.
 
     Args:
-        u: Displacement.
-        young: Young's modulus at small strains.
-        nu: Poisson's ratio at small strains.
         degree: Degree of the quadrature; UFL's estimate if None.
     """
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
@@ -31,13 +28,7 @@ def neo_hookean(u: fem.Function, young: Any, nu: Any, degree: int | None = None)
 
 
 def of_bodies(data: Any, upper: float, lower: float) -> fem.Function:
-    """A value for the upper body's cells and one for the lower body's.
-
-    Args:
-        data: Mesh with tags of its cells.
-        upper: Value of the upper body.
-        lower: Value of the lower body.
-    """
+    """A value for the upper body's cells and one for the lower body's."""
     result = fem.Function(fem.functionspace(data.mesh, ("DG", 0)))
     for body, value in ((Tag.UPPER, upper), (Tag.LOWER, lower)):
         result.x.array[data.cell_tags.find(body)] = value
@@ -50,9 +41,6 @@ def st_venant_kirchhoff(
     """Residual of bodies that hardly resist being squeezed to nothing, or turned inside out.
 
     Args:
-        u: Displacement.
-        young: Young's modulus at small strains.
-        nu: Poisson's ratio at small strains.
         degree: Degree of the quadrature; UFL's estimate if None.
     """
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))

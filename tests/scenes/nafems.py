@@ -42,9 +42,7 @@ class Benchmark:
     """Steel on aluminium.
 
     Attributes:
-        u: Displacement.
         contact: The contact, whose slave is the softer foundation.
-        problem: The problem.
     """
 
     def __init__(
@@ -59,12 +57,8 @@ class Benchmark:
         """Set up.
 
         Args:
-            data: Mesh of both bodies.
             load: Virtual work of the load on the upper body, by the test function and the measure
                 of faces.
-            axisymmetric: Whether the mesh is a section.
-            degree: Degree of the displacement.
-            options: Options of the contact.
         """
         mesh, tags = data.mesh, data.facet_tags
         self.u = u = story.displacement(mesh, degree)
@@ -109,15 +103,7 @@ class Benchmark:
 
 
 def punch(h: float, *, dim: int = 3, order: int = 1, degree: int = 2, **options: Any) -> Benchmark:
-    """The punch, with cells of size h at the edge of the contact.
-
-    Args:
-        h: Size of cells, mm.
-        dim: 3 for a quarter, 2 for a section.
-        order: Order of the cells; of order 2 they are curved.
-        degree: Degree of the displacement.
-        options: Options of the contact.
-    """
+    """The punch, with cells of size h at the edge of the contact."""
 
     def recipe(gmsh: ModuleType) -> None:
         occ = gmsh.model.occ
@@ -155,14 +141,7 @@ def punch(h: float, *, dim: int = 3, order: int = 1, degree: int = 2, **options:
 
 
 def roller(h: float, *, order: int = 1, degree: int = 2, **options: Any) -> Benchmark:
-    """Half of the roller, with cells of size h in the contact; its weight is the load.
-
-    Args:
-        h: Size of cells, mm.
-        order: Order of the cells; of order 2 they are curved.
-        degree: Degree of the displacement.
-        options: Options of the contact.
-    """
+    """Half of the roller, with cells of size h in the contact; its weight is the load."""
 
     def recipe(gmsh: ModuleType) -> None:
         occ = gmsh.model.occ

@@ -56,8 +56,6 @@ def _integrals(corners: Array, low: float, high: float) -> Array:
 
     Args:
         corners: Corners of the facet in its plane, as dolfinx orders them, shape (k, dim - 1).
-        low: Lower bound of each coordinate.
-        high: Upper bound.
     """
     if len(corners) == 2:
         a, b = corners.ravel()

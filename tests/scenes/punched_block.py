@@ -48,19 +48,12 @@ class PunchedBlock:
         """Create the block.
 
         Args:
-            gdim: Dimension of space.
-            n: Cells along the block.
             ball: Radius of a rigid ball, or
             punch: cells along a deformable punch, in the plane.
-            width: Width of the punch.
             lean: By how much its head is wider, over its foot: its sides lean outward.
             around: Whether its sides are part of the foot's surface, to its edges.
             x0: Place of the ball or the middle of the punch along the top.
-            down: How far they are pushed down.
-            swapped: Whether the punch is the slave.
             unit: What all lengths are multiplied by.
-            audit: What becomes of wrong iterates.
-            options: Options of the contact.
         """
         parts = [grid([-1] * gdim, [1] * (gdim - 1) + [0], [n] * (gdim - 1) + [max(2, n // 2)])]
         if punch:

@@ -33,13 +33,7 @@ SHAPES = {
 
 
 class Strip:
-    """A strip of one layer of quadrilaterals on a circle of radius 1 about the origin.
-
-    Attributes:
-        u: Displacement.
-        contact: Contact with the circle.
-        problem: The problem.
-    """
+    """A strip of one layer of quadrilaterals on a circle of radius 1 about the origin."""
 
     def __init__(
         self,
@@ -54,13 +48,9 @@ class Strip:
         """Create the problem.
 
         Args:
-            domain: The strip.
             ends: Which points are driven.
             bottom: Which points are on the slave surface.
-            material: Residual by displacement, Young's modulus and Poisson's ratio.
             aside: How far the circle is moved, so that no node is above its centre.
-            petsc_options: Options of the problem.
-            options: Options of the contact.
         """
         self.u = displacement(domain)
         V = self.u.function_space
@@ -81,7 +71,6 @@ class Strip:
         """Move the ends down.
 
         Args:
-            down: How far.
             left: How far the left one; as the other one if None.
         """
         at_left = self._x < 0
@@ -99,11 +88,7 @@ def beam(
     """A straight beam above the circle, whose ends ``press`` pulls down.
 
     Args:
-        n: Cells along it.
         shape: Which of ``SHAPES``.
-        material: Residual by displacement, Young's modulus and Poisson's ratio.
-        petsc_options: Options of the problem.
-        options: Options of the contact.
     """
     thick, half, _ = SHAPES[shape]
     corners = [[-half, 1.0], [half, 1.0 + thick]]
@@ -123,7 +108,6 @@ def press(strip: Strip, shape: str) -> cx.Report:
     """Pull the ends of a beam down in one step.
 
     Args:
-        strip: The beam.
         shape: Its shape.
     """
     strip.pull(SHAPES[shape][2])
@@ -139,15 +123,7 @@ def belt(
     friction: float = 0.3,
     **options: Any,
 ) -> Strip:
-    """A belt of thickness 0.005, wound half around the circle, or straight above it.
-
-    Args:
-        n: Cells along it.
-        wound: Whether it lies on the circle.
-        material: Residual by displacement, Young's modulus and Poisson's ratio.
-        friction: Coefficient of friction.
-        options: Options of the contact.
-    """
+    """A belt of thickness 0.005, wound half around the circle, or straight above it."""
     thick = 0.005
     half = np.pi / 2 if wound else 2.0
     corners = [[-half, 1.0], [half, 1.0 + thick]]

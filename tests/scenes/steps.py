@@ -162,15 +162,10 @@ class Rubbing:
     """Two blocks that rub, with a switch for each thing that may become bad.
 
     Attributes:
-        u: Displacement.
-        contact: Contact.
-        problem: The problem.
         history: A function that belongs to the state.
         young: Young's modulus in the residual.
         tangent: Factor of the Jacobian.
         load: Traction on the top block's side.
-        friction: Coefficient.
-        offset: Offset.
     """
 
     def __init__(self, method: str = "node-to-surface", solver: str = "lu", **kind: Any):

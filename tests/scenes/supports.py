@@ -24,12 +24,10 @@ class DrivenFaces:
     """All displacements of some faces.
 
     Attributes:
-        bc: The Dirichlet condition.
         x: Reference positions of the faces' nodes, shape (n, gdim).
     """
 
     def __init__(self, u: fem.Function, tags: mesh.MeshTags, *faces: int):
-        """Hold them."""
         V = u.function_space
         self._value = fem.Function(V)
         self._nodes = _nodes(V, tags, faces)

@@ -18,13 +18,7 @@ PRESSURE = 1e-3
 
 
 class ThinSheets:
-    """Sheets under a uniform pressure, E = 1, nu = 0: their boundaries are one surface.
-
-    Attributes:
-        u: Displacement.
-        contact: Contact of all of them.
-        problem: The problem.
-    """
+    """Sheets under a uniform pressure, E = 1, nu = 0: their boundaries are one surface."""
 
     def __init__(
         self,
@@ -38,8 +32,6 @@ class ThinSheets:
         Args:
             cells: Number of cells of each along its length of 1.
             height: Thickness of each.
-            petsc_options: Options of PETSc.
-            options: Options of the contact.
         """
         gap = 0.01 * height
         parts = []

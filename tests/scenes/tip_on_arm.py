@@ -26,9 +26,6 @@ class TipOnArm:
 
     Attributes:
         contact: Contact of the block's lower sides with the arm's top; frictionless.
-        problem: The problem.
-        bcs: Conditions on the arm's end and on the block's upper sides.
-        way: Movement of the block's upper sides.
     """
 
     def __init__(self, n: int = 20, *, swapped: bool = False, **options: Any):
@@ -36,8 +33,6 @@ class TipOnArm:
 
         Args:
             n: Cells along the arm; those of the block have the same size.
-            swapped: Whether the arm is the slave.
-            options: Options of the contact.
         """
         parts = []
         for k, (length, height) in enumerate([(1.0, THICKNESS), (SIDE, SIDE)]):

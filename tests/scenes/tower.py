@@ -28,15 +28,9 @@ class Tower:
     """An upper box on a lower one of the same width.
 
     Attributes:
-        u: Displacement.
-        tags: Facet tags.
         X: Reference positions of the nodes, shape (num_nodes, gdim).
         upper: Nodes of the upper box.
-        top: The upper box's top.
-        bottom: The lower box's bottom.
         stress: What loads the side faces, if they are asked for.
-        contact: The contact.
-        problem: The problem.
     """
 
     def __init__(

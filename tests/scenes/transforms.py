@@ -34,7 +34,6 @@ class Numbered:
 
     Attributes:
         domain: Mesh; its coordinates may be overwritten.
-        tags: Facet tags.
         nodes: Number that each node of the geometry has in the first mesh.
     """
 
@@ -62,7 +61,6 @@ class Answer:
     """Answer without units, in the first scene's axes and numbers.
 
     Attributes:
-        iterations: Number of linear solves in all steps.
         closed: Nodes in contact in each iteration.
         status: Status of each node, -1 off the slave surface.
         u: Displacement / length, shape (num_nodes, gdim).
@@ -141,7 +139,6 @@ def _rebuilt(first: Numbered, cells: npt.NDArray[np.int64], old: npt.NDArray[np.
     """The same mesh from other cells.
 
     Args:
-        first: Mesh.
         cells: Its cells, shape (num_cells, num_nodes).
         old: Number in the first mesh of each of their nodes.
     """

@@ -56,22 +56,13 @@ def mesh(h: float, slave: str) -> MeshData:
 
 
 class TwoSpheres:
-    """The spheres, with the upper one as the slave; its flat face moves down.
-
-    Attributes:
-        problem: The problem.
-        contact: Its contact.
-        iterations: Of each solve.
-    """
+    """The spheres, with the upper one as the slave; its flat face moves down."""
 
     def __init__(self, data: MeshData, *, slave: str, sliding: str, method: str):
         """Set the problem up.
 
         Args:
-            data: The mesh.
             slave: "soft" or "stiff".
-            sliding: "finite" or "small".
-            method: Method of the contact.
         """
         tags, u = data.facet_tags, displacement(data.mesh)
         E = of_bodies(data, *((SOFT, STIFF) if slave == "soft" else (STIFF, SOFT)))

@@ -31,9 +31,7 @@ class TwoTips:
 
         Args:
             overlap: Length by which they are above each other.
-            n: Cells along each.
             whole: Whether the surfaces are the whole boundaries.
-            options: Options of the contact.
         """
         parts = []
         for k in range(2):

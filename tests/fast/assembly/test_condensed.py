@@ -23,7 +23,7 @@ import scenes
 from meshes import Tag
 from scenes import CELLS, Blocks, hertz_sphere
 from scenes.closed import close_all
-from scenes.covering import METHODS, SLIDINGS, covering
+from scenes.covering import METHODS, covering
 from scenes.tuning import tuned
 from story import traction
 
@@ -32,58 +32,10 @@ LAWS = [{}, {"friction": 0.3}, {"tied": True}]
 LAWS += [MORTAR, {"friction": 0.3, **MORTAR}, {"tied": True, **MORTAR}]
 
 
-def random_state(cell, law, sliding):
-    scene = Blocks(cell, gap=0.02, n_upper=3, n_lower=2)
-    contact = scene.contact(sliding, **law)
-    problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
-    discrete, nodes = contact.discrete, contact.discrete.nodes
-    rng = np.random.default_rng(11)
-    scene.u.x.array[:] = 0.01 * rng.standard_normal(len(scene.u.x.array))
-    for bc in scene.bcs:
-        bc.set(scene.u.x.array)
-    discrete.begin_step()
-    discrete.search()
-    discrete.update_gap()
-    n = len(nodes.gap)
-    nodes.multiplier[:] = 0.1 * rng.standard_normal(len(nodes.multiplier))
-    if nodes.size > 1:
-        nodes.multiplier.reshape(n, -1)[:, -1] = rng.uniform(0.5, 1, n)
-    status = np.arange(n) % (2 if "tied" in law else 3)
-    if nodes.size == 1:
-        status = np.where(status > 0, 2, 0)
-    nodes.status[:] = np.where(np.isnan(nodes.gap), 0, status)
-    nodes.c[:] = rng.uniform(1, 2, n)
-    discrete.law.evaluate(nodes)
-    return problem, contact, rng
-
-
-@covering(cell=CELLS, law=LAWS, sliding=SLIDINGS)
-def test_one_solve(cell, law, sliding):
-    problem, _, rng = random_state(cell, law, sliding)
-    compare_one_solve(problem, rng)
-
-
-def compare_one_solve(problem, rng):
-    """Solve once for a random right-hand side."""
-    system = problem.assembler.system
-    b = rng.standard_normal(system.x.getSize())
-    b[: system.num_bulk][problem.assembler.bulk.markers == 1] = 0
-    J = system.jacobian().convert("dense").getDenseArray()
-    exact = np.linalg.solve(J, b)
-    algebra = Algebra(problem.assembler.bulk, system, "one_solve_")
-    solver = core.CondensedSolver(problem.assembler.core, algebra)
-    result = np.empty_like(b)
-    solver.solve(b, result)
-    assert not solver.statistics().direct
-    assert np.abs(result - exact).max() <= 1e-9 * np.abs(exact).max()
-
-
 def soften(problem, contact, ratio):
     """Give sticking nodes, and those without friction, springs.
 
     Args:
-        problem: The problem.
-        contact: Its contact.
         ratio: Stiffnesses of a node over the bulk's diagonal: normal and tangential.
     """
     nodes, bulk = contact.discrete.nodes, problem.assembler.bulk
@@ -100,19 +52,8 @@ def soften(problem, contact, ratio):
             laws[i] = compliance[0] * along + compliance[1] * (np.eye(len(n)) - along)
 
 
-SOFT_LAWS = [{}, {"tied": True}, MORTAR, {"tied": True, **MORTAR}, {"friction": 0.3, **MORTAR}]
-
-
-@covering(cell=CELLS, law=SOFT_LAWS, sliding=SLIDINGS)
-def test_one_solve_with_soft_nodes(cell, law, sliding):
-    """Springs of any stiffness, different in each node and along its tangents."""
-    problem, contact, rng = random_state(cell, law, sliding)
-    soften(problem, contact, lambda: 10 ** rng.uniform(-2, 8, 2))
-    compare_one_solve(problem, rng)
-
-
 @pytest.mark.parametrize("stiffness", [1.0, 0.01])
-@pytest.mark.parametrize("law", SOFT_LAWS[:4])
+@pytest.mark.parametrize("law", [{}, {"tied": True}, MORTAR, {"tied": True, **MORTAR}])
 def test_multigrid_does_not_feel_the_stiffness_of_soft_nodes(law, stiffness):
     """As many Krylov iterations as without springs, on masters that yield."""
     scene = Blocks(CellType.hexahedron, n_upper=6, n_lower=5, stiffness=stiffness)
@@ -229,27 +170,6 @@ def test_friction_on_planes_of_symmetry():
     assert not condensed[2].uncondensed
 
 
-def test_one_solve_with_prescribed_slave_nodes():
-    """Tilted normals tie what a prescribed displacement leaves of a law to its other rows."""
-    problem, contact = hertz_sphere(
-        0.04, "finite", friction=0.3, petsc_options={"pc_type": "condensed"}
-    )
-    problem.solve()
-    discrete, nodes = contact.discrete, contact.discrete.nodes
-    rng = np.random.default_rng(5)
-    problem.u.x.array[:] += 1e-3 * rng.standard_normal(len(problem.u.x.array))
-    for bc in problem.assembler.bulk.bcs:
-        bc.set(problem.u.x.array)
-    discrete.search()
-    discrete.update_gap()
-    closed = np.flatnonzero(nodes.closed)
-    nodes.status[closed] = 1 + np.arange(len(closed)) % 2
-    discrete.law.evaluate(nodes)
-    prescribed = problem.assembler.bulk.markers.reshape(-1, 3)[discrete.slaves[closed]]
-    assert (prescribed.sum(axis=1) == 1).sum() > 2
-    compare_one_solve(problem, rng)
-
-
 @pytest.fixture
 def report_of_a_corner():
     """Report of a scene whose edge nodes are slave on the floor and at the wall."""
@@ -305,19 +225,6 @@ def test_a_bulk_that_is_not_symmetric():
     direct, condensed = both(create)
     assert_same(direct, condensed)
     assert not condensed[2].uncondensed
-
-
-def test_a_hierarchy_is_kept_from_step_to_step():
-    scene = Blocks(CellType.tetrahedron, n_upper=4, n_lower=3)
-    contact = scene.contact("small")
-    problem = scene.problem(contact, petsc_options={"pc_type": "condensed"})
-    made = []
-    for k in range(1, 4):
-        scene.bcs[-1].g.value[...] = -0.02 * k
-        problem.solve()
-        made.append(problem.report.hierarchies)
-    assert made[0] >= 1
-    assert made[-1] == 0
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])

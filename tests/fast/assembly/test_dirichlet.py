@@ -66,32 +66,6 @@ def test_prescribed_master_nodes(cell):
     assert np.abs(contact.area[closed] * contact.multiplier[closed] - force).max() <= 1e-12
 
 
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.tetrahedron])
-def test_one_linear_solve_finds_the_solution_of_its_active_set(cell):
-    """Lifting is exact: from zero, with the final status, one Newton step is all it takes."""
-    scene = Blocks(cell)
-    scene.bcs.append(master_values(scene))
-    contact = scene.contact("small")
-    problem = scene.problem(contact)
-    problem.solve()
-    u, pressure = scene.u.x.array.copy(), contact.multiplier.copy()
-    system = problem.assembler.system
-    scene.u.x.array[:] = 0
-    contact.multiplier[:] = 0
-    system.pack()
-    system.residual(system.b)
-    J = system.jacobian().convert("dense").getDenseArray()
-    prescribed = np.flatnonzero(problem.assembler.bulk.markers)
-    coupling = J.copy()
-    coupling[prescribed, prescribed] = 0
-    assert not coupling[:, prescribed].any()
-    assert not coupling[prescribed].any()
-    step = np.linalg.solve(J, system.b.array)
-    assert np.abs(u + step[: len(u)]).max() <= 1e-13
-    change = step[len(u) :] * system.core.factors
-    assert np.abs(pressure + change).max() <= 1e-11
-
-
 def constraint_matrix(contact, n):
     """Derivative of the gaps with respect to the displacement, by exact differences."""
     u = contact.discrete.halo.displacement.array

@@ -17,7 +17,6 @@ from meshes import Tag
 from scenes.blocks import Blocks
 from scenes.coupled import Coupled
 from scenes.driven import DrivenBlock
-from scenes.materials import neo_hookean
 from scenes.problems import direct_solver
 from story import METHODS, traction
 
@@ -156,22 +155,6 @@ def test_loads_may_change_between_calls():
     assembler.residual(c)
     assert np.abs(b.array_r - c.array_r).max() > 1e-6
     assert before.number == 0
-
-
-def test_steps_stop_short_of_turning_cells():
-    scene = Blocks(CellType.triangle)
-    scene.F = neo_hookean(scene.u, 1.0, 0.3)
-    contact = scene.contact()
-    assembler = cx.ContactAssembler(scene.F, scene.u, contacts=[contact], bcs=scene.bcs)
-    assembler.begin_step()
-    assembler.settle()
-    dx = assembler.create_vector()
-    assert assembler.limit(dx) == 1
-    dx.array[:] = np.random.default_rng(1).standard_normal(dx.getLocalSize())
-    part = assembler.limit(dx)
-    assert 0 < part < 0.5
-    dx.scale(part)
-    assert assembler.limit(dx) == pytest.approx(1, rel=2e-3)
 
 
 def test_a_loop_without_end_is_ended():

@@ -62,18 +62,6 @@ def test_no_convergence_leaves_everything_as_it_was(method):
     assert problem.report.converged
 
 
-def test_a_body_that_is_pulled_away_says_so():
-    scene = Blocks(CellType.tetrahedron)
-    scene.bcs = scene.bcs[:3]
-    v = ufl.TestFunction(scene.u.function_space)
-    top = ufl.Measure("ds", scene.u.function_space.mesh, subdomain_data=scene.tags)(Tag.UPPER_TOP)
-    scene.F -= 0.1 * v[2] * top
-    problem = scene.problem(scene.contact())
-    with pytest.raises(cx.ConvergenceError):
-        problem.solve()
-    assert not scene.u.x.array.any()
-
-
 def test_a_failed_step_brings_back_which_nodes_can_yield():
     """On a plane that has turned upright none can: they are fixed sideways."""
     scene = Sheared()
@@ -205,22 +193,6 @@ def test_a_linear_bulk_is_assembled_once_and_again_when_a_constant_changes():
     assert contact.force == pytest.approx(3 * force, rel=1e-9, abs=1e-12)
 
 
-def test_loading_and_unloading_opens_again():
-    scene = Blocks(CellType.quadrilateral, down=0.05, gap=0.01)
-    contact = scene.contact()
-    problem = scene.problem(contact)
-    problem.solve()
-    loaded = contact.force.copy()
-    assert loaded[1] > 0
-    scene.bcs[-1].g.value[...] = 0.0
-    problem.solve()
-    assert not contact.force.any()
-    assert np.abs(scene.u.x.array).max() <= 1e-14
-    scene.bcs[-1].g.value[...] = -0.05
-    problem.solve()
-    assert contact.force == pytest.approx(loaded, rel=1e-10, abs=1e-14)
-
-
 def test_an_open_contact_changes_nothing():
     scene = Blocks(CellType.tetrahedron)
     one = scene.contact()
@@ -233,18 +205,6 @@ def test_an_open_contact_changes_nothing():
     assert not side.force.any()
     assert one.force == pytest.approx(contact.force, rel=1e-12, abs=1e-15)
     assert len(problem.report.force) == 2
-
-
-def test_touching_without_force():
-    """Gaps that are zero but for rounding neither chatter nor make the system singular."""
-    for sliding in ("finite", "small"):
-        scene = Blocks(CellType.tetrahedron, down=0.0, n_upper=3, n_lower=4)
-        contact = scene.contact(sliding)
-        problem = scene.problem(contact)
-        problem.solve()
-        assert problem.report.iterations <= 1
-        assert np.abs(scene.u.x.array).max() <= 1e-15
-        assert np.abs(contact.multiplier).max() <= 1e-13
 
 
 def test_a_body_that_has_run_away_is_no_solution(method):
@@ -264,21 +224,6 @@ def test_a_body_that_has_run_away_is_no_solution(method):
     assert tolerance == 0
 
 
-def test_slave_and_master_may_change_roles():
-    """Not the same constraints, but answers that approach each other with the mesh size."""
-    forces = []
-    for swap in (False, True):
-        scene = Blocks(CellType.quadrilateral, n_upper=16, n_lower=24)
-        surfaces = [
-            cx.Surface(scene.tags, Tag.UPPER_CONTACT),
-            cx.Surface(scene.tags, Tag.LOWER_CONTACT),
-        ]
-        contact = cx.Contact(*(surfaces[::-1] if swap else surfaces))
-        scene.problem(contact).solve()
-        forces.append(-contact.force if swap else contact.force)
-    assert forces[0][1] == pytest.approx(forces[1][1], rel=0.03)
-
-
 def test_report_and_table_fit_a_terminal():
     scene = Blocks(CellType.tetrahedron)
     problem = scene.problem(scene.contact())
@@ -293,20 +238,6 @@ def test_report_and_table_fit_a_terminal():
     assert problem.report.history[0].number == 0
     numbers = [row.number for row in problem.report.history]
     assert numbers == list(range(problem.report.iterations + 1))
-
-
-def test_a_contact_that_a_dirichlet_value_closes_by_force():
-    """Prescribed displacement of the top in two steps gives what one step gives (no history)."""
-    one, two = Blocks(CellType.tetrahedron), Blocks(CellType.tetrahedron)
-    contact = one.contact()
-    one.problem(contact).solve()
-    two.bcs[-1] = fix(two.u, two.tags, 2, -0.02, Tag.UPPER_TOP)
-    stepped = two.contact()
-    problem = two.problem(stepped)
-    problem.solve()
-    two.bcs[-1].g.value[...] = -0.05
-    problem.solve()
-    assert stepped.force == pytest.approx(contact.force, rel=1e-9, abs=1e-12)
 
 
 @pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.hexahedron])

@@ -121,20 +121,6 @@ def test_a_repeated_solve_has_nothing_to_do(size, units):
     assert contact_force == contact_force[:1] * 3
 
 
-@pytest.mark.parametrize("units", UNITS)
-def test_pulling_at_both_ends(units):
-    scene = Apart(*units, gap=0.0)
-    pull = fem.Constant(scene.domain, np.array([scene.young, 0.0]))
-    back = fem.Constant(scene.domain, np.array([-scene.young, 0.0]))
-    F = elasticity(scene.u, scene.young, NU)
-    F += traction(scene.u, scene.scene.tags, Tag.UPPER_X0, back)
-    F += traction(scene.u, scene.scene.tags, Tag.UPPER_X1, pull)
-    problem = scene.problem(F, scene.scene.bcs)
-    problem.solve()
-    problem.solve()
-    assert problem.report.iterations == 0
-
-
 def test_a_load_of_the_size_of_rounding_errors_elsewhere_is_not_lost():
     """What cancels in one body excuses nothing in the other."""
     scene = Apart(1.0, 1.0, gap=0.0)
@@ -150,18 +136,6 @@ def test_a_load_of_the_size_of_rounding_errors_elsewhere_is_not_lost():
     problem = scene.problem(F, bcs)
     problem.solve()
     assert problem.contacts[0].force[1] == pytest.approx(1e-9, rel=1e-3)
-
-
-def test_cell_forces_are_assembled_only_where_they_matter(monkeypatch):
-    calls = []
-    magnitudes = CellForces.magnitudes
-    monkeypatch.setattr(CellForces, "magnitudes", lambda s: calls.append(1) or magnitudes(s))
-    scene = Apart(1.0, 1.0, gap=0.0)
-    scene.problem(elasticity(scene.u, 1.0, NU), scene.scene.bcs).solve()
-    assert not calls
-    scene = Apart(1.0, 1.0)
-    scene.problem(prestress(scene)).solve()
-    assert len(calls) <= 1
 
 
 def test_cell_forces_of_one_cell_are_those_of_its_node():

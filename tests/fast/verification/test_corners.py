@@ -28,7 +28,7 @@ LOAD = 0.01
 class Corner:
     """A block without supports is pressed into the corner of a rigid floor and a rigid wall."""
 
-    def __init__(self, cell, *, friction, twice=False, tied=False):
+    def __init__(self, cell, *, friction, twice=False):
         scene = Blocks(cell)
         u, tags = scene.u, scene.tags
         self.gdim = gdim = u.function_space.mesh.geometry.dim
@@ -38,7 +38,7 @@ class Corner:
         F = scene.F + traction(u, tags, Tag.UPPER_TOP, down)
         F += traction(u, tags, Tag.UPPER_X1, push)
         foot, side = cx.Surface(tags, Tag.UPPER_CONTACT), cx.Surface(tags, Tag.UPPER_X0)
-        floor = cx.Contact(foot, cx.Plane(0 * up, up), friction=0 if tied else friction, tied=tied)
+        floor = cx.Contact(foot, cx.Plane(0 * up, up), friction=friction)
         wall = cx.Contact(side, cx.Plane(left, aside), friction=friction)
         again = [cx.Contact(foot, cx.Plane(0 * up, up), friction=friction)] if twice else []
         self.contacts = [floor, wall, *again]
@@ -66,29 +66,6 @@ def test_a_block_in_a_corner(cell, friction, twice):
         # Of two contacts with the same floor only one carries
         first, _, second = scene.contacts
         assert not (first.multiplier.any() and second.multiplier.any())
-
-
-@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-def test_friction_is_left_out_where_a_node_closes_two_contacts(cell):
-    scene = Corner(cell, friction=0.3)
-    scene.problem.solve()
-    shared = np.intersect1d(*[contact.slave_nodes for contact in scene.contacts])
-    for contact in scene.contacts:
-        nodes = contact.discrete.nodes
-        corner = np.isin(contact.slave_nodes, shared)
-        along = contact.multiplier - nodes.pressure[:, None] * nodes.normal
-        assert np.abs(along[corner]).max() <= 1e-14
-        assert np.abs(along[~corner]).max() > 1e-6
-
-
-@pytest.mark.parametrize("cell", CELLS, ids=lambda c: c.name)
-def test_a_tied_node_keeps_its_tie_alone(cell):
-    scene = Corner(cell, friction=0.3, tied=True)
-    scene.problem.solve()
-    floor, wall = scene.contacts
-    shared = np.isin(wall.slave_nodes, floor.slave_nodes)
-    assert (wall.discrete.nodes.status[shared] == 0).all()
-    assert (floor.discrete.nodes.status == 1).all()
 
 
 @covering(

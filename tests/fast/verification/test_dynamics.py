@@ -114,16 +114,6 @@ def test_balance(cell, options):
         np.testing.assert_allclose(dynamics.angular_momentum(), moment, rtol=0, atol=5e-3)
 
 
-def test_nodes_stay_on_what_they_have_hit():
-    scene = Flying(PLANE, obstacle=cx.Plane((0, 0), (0, 1)), friction=10.0)
-    for _ in range(6):
-        scene.dynamics.solve()
-    closed = scene.contact.slave_nodes[scene.contact.discrete.nodes.closed]
-    velocity = scene.dynamics.velocity.x.array.reshape(-1, 2)[closed]
-    assert len(closed) > 1
-    np.testing.assert_allclose(velocity, 0, atol=1e-12 * SPEED)
-
-
 def test_free_fall_is_exact():
     data = meshes.blocks(PLANE, (2, 2), (2, 2), gap=100.0)
     mesh, tags = meshes.single(data, Tag.UPPER)

@@ -152,12 +152,6 @@ def test_a_wide_punch_is_no_fault(method, sliding):
             assert block.problem.report.audit.excess < 0.9
 
 
-def test_small_sliding_sees_a_narrow_punch_too():
-    block = PunchedBlock(2, n=4, punch=8, x0=0.25, sliding="small")
-    with pytest.raises(cx.ConvergenceError, match=COARSE):
-        block.problem.solve()
-
-
 @pytest.mark.parametrize("unit", [1e-6, 1e6])
 def test_units_do_not_matter(unit):
     excess = []
@@ -167,30 +161,3 @@ def test_units_do_not_matter(unit):
             block.problem.solve()
         excess.append(block.problem.report.audit.excess)
     assert np.isclose(*excess, rtol=1e-6)
-
-
-@pytest.mark.parametrize("gdim", [2, 3])
-def test_no_verdict_hangs_on_where_a_step_ends(gdim):
-    """A ball that touches first between nodes: the force is the same in any number of steps."""
-    forces = []
-    for steps in (1, 2, 9, 10, 11, 20):
-        block = PunchedBlock(gdim, n=4, ball=0.8, x0=0.25, down=0.0)
-        for k in range(steps):
-            block.centre.value[-1] = 0.8 - 0.12 * (k + 1) / steps
-            block.problem.solve()
-        forces.append(block.contact.force[-1])
-    assert forces[0] < 0
-    assert forces == pytest.approx([forces[0]] * len(forces), rel=1e-8)
-
-
-def test_few_facets_a_radius_are_warned_of_once():
-    block = PunchedBlock(2, n=40, ball=0.15, x0=0.0, down=0.01)
-    with pytest.warns(UserWarning, match=r"radius of curvature, 0.15, is 3 slave facets long"):
-        block.problem.solve()
-    assert block.problem.report.audit.radius_in_facets == pytest.approx(3, rel=0.05)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        block.problem.solve()
-        fine = PunchedBlock(2, n=40, ball=0.5, x0=0.0, down=0.01)
-        fine.problem.solve()
-    assert fine.problem.report.audit.radius_in_facets == pytest.approx(10, rel=0.05)

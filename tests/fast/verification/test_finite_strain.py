@@ -161,7 +161,6 @@ def check_quadratic(r, linear=0.0):
     """Each residual is at most a constant times the square of the one before, until rounding.
 
     Args:
-        r: Residuals.
         linear: Share of the one before that may stay as well.
     """
     pairs = [(before, after) for before, after in itertools.pairwise(r) if before > 1e-12]

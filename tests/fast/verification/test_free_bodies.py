@@ -129,21 +129,6 @@ def test_the_springs_do_not_change_the_answer(cell, friction, monkeypatch):
         assert np.abs(p - answers[0][1]).max() <= 1e-9 * np.abs(p).max()
 
 
-def test_springs_of_the_user_hold_a_body():
-    """An elastic support in the bulk's form counts: no mode is left to contact."""
-    scene = Blocks(CellType.hexahedron, gap=0.5)
-    mesh = scene.u.function_space.mesh
-    v = ufl.TestFunction(scene.u.function_space)
-    ds = ufl.Measure("ds", mesh, subdomain_data=scene.tags)
-    scene.F += 1e-3 * ufl.inner(scene.u, v) * ds(int(Tag.UPPER_TOP))
-    scene.F += 1e-5 * v[2] * ds(int(Tag.UPPER_TOP))
-    scene.bcs = scene.bcs[:3]
-    problem = scene.problem(scene.contact())
-    problem.solve()
-    assert problem.report.free_modes == 0 and problem.report.closed_for_balance == 0
-    assert scene.u.x.array.reshape(-1, 3)[:, 2].min() == pytest.approx(-0.01, rel=0.01)
-
-
 @covering(
     **{
         "friction,offset,shear": [

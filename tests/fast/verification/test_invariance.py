@@ -3,12 +3,9 @@
 """Units, axes, place, direction and numbering change neither the answer nor the way to it."""
 
 import functools
-import warnings
 
 import numpy as np
 import pytest
-
-from dolfinx.mesh import CellType
 
 import meshes
 from meshes import Tag
@@ -252,23 +249,6 @@ def test_nodes_on_nodes(cell, sliding, method):
         assert max(d["u"], d["pressure"]) <= (1e-9 if sliding == "small" else 0.05)
         if sliding == "small":
             assert d["force"] <= 1e-9
-
-
-def test_default_search_distance_does_not_turn():
-    scene = numbered(
-        meshes.blocks(CellType.tetrahedron, (3, 3, 3), (4, 4, 4), gap=0.85),
-    )
-    supports = (
-        Support((Tag.LOWER_BOTTOM,), (0, 1, 2), (0.0, 0.0, 0.0)),
-        Support((Tag.UPPER_TOP,), (0, 1, 2), (0.0, 0.0, -0.9)),
-    )
-    c = np.sqrt(0.5)
-    turned = Frame(np.array([[c, -c, 0], [c, c, 0], [0, 0, 1]]), np.zeros(3))
-    first = solve(scene, supports, turned, sliding="small")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # transmits no force
-        answer = solve(scene, supports, sliding="small")
-    check(answer, first)
 
 
 @pytest.mark.parametrize("sliding", ["finite", "small"])

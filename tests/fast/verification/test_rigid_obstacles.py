@@ -194,21 +194,6 @@ def test_switched_off_and_on_again():
     assert contact.force == pytest.approx(force, rel=1e-9, abs=1e-12)
 
 
-def test_search_distance_leaves_far_nodes_out():
-    near = cx.Plane((0, 0, -0.001), (0, 0, 1))
-    scene = Blocks(CellType.tetrahedron, gap=0.2, down=0.0)
-    contact = cx.Contact(
-        cx.Surface(scene.tags, Tag.UPPER_CONTACT, Tag.UPPER_X0), near, search_distance=0.5
-    )
-    problem = scene.problem(contact)
-    problem.solve()
-    # The side's nodes above half a length have none
-    assert problem.report.pairs < problem.report.slaves
-    gaps = contact.discrete.nodes.gap
-    assert np.nanmax(gaps) <= 0.5
-    assert np.isnan(gaps).sum() == problem.report.slaves - problem.report.pairs
-
-
 def test_a_node_that_is_constrained_inside_an_obstacle():
     scene = Blocks(CellType.tetrahedron, down=0.05)
     contact = cx.Contact(

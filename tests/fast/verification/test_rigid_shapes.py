@@ -27,10 +27,6 @@ def pressed(shape, gdim, n, cells, method):
 
     Args:
         shape: Of the position along the surface; zero at the apex, which is below a node.
-        gdim: Dimension of space.
-        n: Cells along the block.
-        cells: Their type.
-        method: Method of the contact.
     """
     corners = [[-0.5] * (gdim - 1) + [0], [0.5] * (gdim - 1) + [0.6]]
     make = mesh.create_box if gdim == 3 else mesh.create_rectangle
@@ -95,9 +91,7 @@ class OnRoll:
     """A block above a large roll, held at its top and pressed down.
 
     Attributes:
-        u: Displacement.
         contact: The block's lower face on the roll.
-        problem: The problem.
         angle: How far the roll has spun.
     """
 
@@ -241,15 +235,6 @@ def test_no_points(gdim, name):
     shapes = [part.shape for part in (at.gap, at.gradient, at.normal, at.curvature)]
     assert shapes == [(0,), (0, gdim), (0, gdim), (0, gdim, gdim)]
     assert obstacle.level(np.zeros((0, gdim))).shape == (0,)
-
-
-def test_functions_are_not_asked_about_no_points():
-    """They may not be made for that."""
-    level_set = cx.LevelSet(lambda x: x[0] - x[0].min(), lambda x: np.eye(2)[:, [0]] + 0 * x)
-    assert len(level_set.evaluate(np.zeros((0, 2))).gap) == 0
-    assert len(level_set.level(np.zeros((0, 2)))) == 0
-    ufl_set = cx.LevelSet(lambda x: x[0])
-    assert len(ufl_set.level(np.zeros((0, 2)))) == 0
 
 
 def test_constants_move_an_obstacle():

@@ -217,7 +217,6 @@ def check_full_slide(scene, exact, method):
     """All slide against friction times pressure; returns the size of the friction force.
 
     Args:
-        scene: Scene.
         exact: Whether all slide in the same direction.
         method: By surface-to-surface normals are the slave's, which bends at its free edges.
     """

@@ -17,7 +17,6 @@ from scenes.tower import Tower, lift
 from scenes.transforms import rotation
 
 SURFACE, NODE = "surface-to-surface", "node-to-surface"
-every_cell = pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
 both_slidings = pytest.mark.parametrize("sliding", ["finite", "small"])
 
 
@@ -40,33 +39,6 @@ def test_either_body_may_be_the_slave(sliding):
     for contact in (sphere, block):
         assert np.nanmin(contact.discrete.nodes.gap) >= -1e-12
         assert contact.multiplier.min() >= 0
-
-
-def moment(x, f):
-    """Sum of x times f, shape (3,), of positions and forces of shape (n, gdim)."""
-    x, f = (np.pad(a, ((0, 0), (0, 3 - a.shape[1]))) for a in (x, f))
-    return np.cross(x, f).sum(axis=0)
-
-
-@every_cell
-@both_slidings
-def test_forces_and_moments_balance(cell, sliding):
-    """Of all contact forces on the scene; in small sliding about the reference positions."""
-    scene = Blocks(cell)
-    contact = scene.contact(sliding, method=SURFACE)
-    scene.problem(contact).solve()
-    gdim = len(contact.force)
-    forces = np.zeros(len(scene.u.x.array))
-    contact.discrete.add_residual(forces)
-    forces = forces.reshape(-1, gdim)
-    size = np.abs(forces).max()
-    assert np.abs(forces.sum(axis=0)).max() <= 1e-12 * size
-    x = scene.u.function_space.tabulate_dof_coordinates()[:, :gdim]
-    if sliding == "finite":
-        x = x + scene.u.x.array.reshape(-1, gdim)
-    off = np.abs(moment(x, forces)).max() / size
-    print(f"moment off by {off:.1e}")
-    assert off <= 1e-12
 
 
 @covering(cell=CELLS, sliding=SLIDINGS, n=[(4, 3), (3, 5)], aside=(0.0, 0.05))
@@ -101,10 +73,10 @@ def test_very_different_meshes(cell, sliding, n):
     assert contact.force[-1] > 0.02
 
 
-@covering(cell=CELLS, sliding=SLIDINGS, friction=(0.0, 0.3))
+@covering(cell=CELLS, sliding=SLIDINGS, friction=(0.0, 0.3), method=(NODE, SURFACE))
 def test_contact_is_lost_and_closes_again(cell, sliding, friction):
     scene = Blocks(cell)
-    contact = scene.contact(sliding, friction=friction, method=SURFACE)
+    contact = scene.contact(sliding, friction=friction)
     problem = scene.problem(contact)
     forces = []
     for down in (0.05, -0.1, 0.05):

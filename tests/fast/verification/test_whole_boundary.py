@@ -95,15 +95,6 @@ def test_friction_and_a_tilted_plane():
     assert pressure[closed] == pytest.approx(1)
 
 
-def test_solving_again_takes_no_iteration():
-    block = PressedBlock(mesh.CellType.hexahedron, friction=0.5)
-    block.problem.solve()
-    first = block.contact.multiplier.copy()
-    block.problem.solve()
-    assert block.problem.report.iterations == 0
-    assert np.array_equal(block.contact.multiplier, first)
-
-
 def test_a_round_body_that_rolls_keeps_forces():
     """The facets in front change from step to step; each step starts in equilibrium."""
     domain = mesh.create_rectangle(

@@ -35,7 +35,7 @@ RAISED = {
 }
 
 
-@pytest.fixture(scope="module", params=[1, 2, 4], ids=lambda n: f"{n} ranks")
+@pytest.fixture(scope="module", params=[1, 3], ids=lambda n: f"{n} ranks")
 def found(request, tmp_path_factory):
     """What came of each function on some ranks."""
     folder, ranks = tmp_path_factory.mktemp("errors"), request.param

@@ -49,7 +49,6 @@ class Solved:
 
     Attributes:
         judge: Its judge, which finds nothing.
-        size: Size of the bodies.
         u: Displacement, shape (n, dim).
         forces: What the bodies leave at the nodes, shape (n, dim).
         start: Positions at the start of the last step, shape (n, dim).
