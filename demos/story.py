@@ -86,9 +86,17 @@ def displacement(domain: mesh.Mesh, degree: int = 1) -> fem.Function:
     return fem.Function(V, name="displacement")
 
 
+def constants(u: fem.Function, *values: Any) -> Iterator[Any]:
+    """Values of a form; numbers as constants, so that what is compiled serves others, too."""
+    for value in values:
+        is_number = isinstance(value, int | float)
+        yield fem.Constant(u.function_space.mesh, float(value)) if is_number else value
+
+
 def elasticity(u: fem.Function, young: Any, nu: float) -> ufl.Form:
     """Residual of linear elasticity, in plane strain where the mesh is plane."""
     v = ufl.TestFunction(u.function_space)
+    young, nu = constants(u, young, nu)
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
     strain = ufl.sym(ufl.grad(u))
     stress = 2 * mu * strain + lmbda * ufl.tr(strain) * ufl.Identity(len(u))

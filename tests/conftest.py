@@ -14,9 +14,9 @@ os.environ["XDG_CONFIG_HOME"] = str(Path(__file__).parent / "settings")
 # Forms are compiled once, for scripts that tests launch too, and kept until `make clean`
 os.environ["XDG_CACHE_HOME"] = str(Path(__file__).parents[1] / "build" / "cache")
 
-import contactx as cx  # noqa: E402
+import contactx as cx
 
-from tether import tether  # noqa: E402
+from tether import tether
 
 
 def pytest_configure(config):

@@ -154,10 +154,7 @@ def hueeber(on_upper: bool, x: float, lower: bool, component: int) -> Answer:
     """Displacement of a corner of the contact, mm.
 
     Args:
-        on_upper: Which of the two tests.
-        x: Place of the corner.
         lower: Whether it is the lower square's, which is meshed after the upper one.
-        component: Of the displacement.
     """
     u, iterations = _hueeber(on_upper)
     both = displaced(u, x, 0.0)

@@ -76,7 +76,6 @@ def deformed(
     """A drawing of a plane mesh, displaced, coloured by how far.
 
     Args:
-        scale: Factor of the drawn displacement.
         box: Least x, largest x, least y and largest y that are shown; everything if None.
     """
     V = u.function_space

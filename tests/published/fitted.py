@@ -56,10 +56,6 @@ def pin_in_plate(h: float, far: float) -> MeshData:
 
     The load goes along x. The pin is the upper body; ``UPPER_Y0`` and ``LOWER_Y0`` are the plane of
     symmetry, ``LOWER_BOTTOM`` is the rim.
-
-    Args:
-        h: Size of cells at the hole.
-        far: Radius of the plate.
     """
 
     def recipe(gmsh: ModuleType) -> None:

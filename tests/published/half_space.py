@@ -53,13 +53,7 @@ def lines(fine: float, h: float, far: float, ratio: float = 1.15) -> np.ndarray:
 
 
 class HalfSpace:
-    """A section of a half-space below y = 0, axisymmetric or in plane strain, or a quarter of it.
-
-    Attributes:
-        place: Place of the indenter.
-        friction: Coefficient of friction, where there may be some.
-        x: Positions of the slave nodes, shape (n, 3).
-    """
+    """A section of a half-space below y = 0, axisymmetric or in plane strain, or a quarter."""
 
     def __init__(
         self,
@@ -79,13 +73,9 @@ class HalfSpace:
 
         Args:
             grid: Coordinates of the cells' ends along each axis; the last one downward.
-            obstacle: The indenter, by its place.
-            start: Height of the place at first.
             part: How far from the middle the surface is part of the contact.
             symmetric: Axes whose first coordinate is a plane of symmetry.
             sides: Whether the far side along the first axis is one, too.
-            rubbed: Whether there may be friction, none at first.
-            law: Residual of the half-space; elastic if None.
         """
         gdim = len(grid)
         n = [len(axis) - 1 for axis in grid]

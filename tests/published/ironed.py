@@ -49,7 +49,6 @@ class _Run:
 
     Attributes:
         forces: Force on the die's top at the end of each given one, by its t.
-        displacements: Displacement at the same t.
     """
 
     iterations: list[int]
@@ -61,9 +60,6 @@ def simo_miehe(u: fem.Function, young: Any, nu: float) -> ufl.Form:
     """Residual of bodies whose shear stress depends on the shape, and pressure on the volume.
 
     The Kirchhoff stress is that of Code_Aster's ``lcpivm``: mu dev(b) / J^(2/3) + K/2 (J^2 - 1) I.
-
-    Args:
-        u: Displacement, plane strain.
     """
     mu, bulk = young / (2 * (1 + nu)), young / (3 * (1 - 2 * nu))
     F = ufl.Identity(2) + ufl.grad(u)
@@ -122,7 +118,6 @@ def _run(times: Sequence[float], block_is_slave: bool, method: str) -> _Run:
     """Press the die in and move it along.
 
     Args:
-        times: The t at which load steps end.
         block_is_slave: Whether the block's top is the slave, or the die's arc.
     """
     data = _bodies()

@@ -33,7 +33,6 @@ class Leaves:
 
     Attributes:
         F: Residual of the leaves alone, in plane stress without a Poisson's ratio.
-        ds: Measure of tagged facets.
         contacts: Contact of each leaf with the one above it.
     """
 

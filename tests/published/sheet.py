@@ -72,17 +72,11 @@ class Plastic:
     """Von Mises plasticity with isotropic hardening in the reference configuration.
 
     Attributes:
-        integrand: Virtual work per reference volume.
-        measure: Metadata of its quadrature.
         history: Plastic strain and its length, which belong to the state.
     """
 
     def __init__(self, u: fem.Function, degree: int):
-        """Create.
-
-        Args:
-            u: Displacement, plane strain.
-        """
+        """Create."""
         domain = u.function_space.mesh
         cell = domain.basix_cell()
         tensor = basix.ufl.quadrature_element(cell, value_shape=(3, 3), degree=degree)
@@ -187,9 +181,6 @@ def bent(
     friction: float, cells: int = 90
 ) -> tuple[list[int], tuple[fem.Function, float], tuple[fem.Function, float]]:
     """Bend the sheet and let it go.
-
-    Args:
-        cells: Cells along the sheet.
 
     Returns:
         Linear solves of the load steps; under the punch, and after it has gone, the displacement

@@ -52,10 +52,6 @@ def launch(
     Args:
         script: The script; helpers of tests and demos can be imported in it.
         limit: Seconds after which it hangs, unless it begins parts with limits of their own.
-        longest: Seconds for all of them.
-
-    Returns:
-        What it printed.
 
     Raises:
         Hang: If ranks hang, with the stacks of all of them.
@@ -96,10 +92,6 @@ def launch_together(
     """Run many parts in one launch, as a start costs seconds; one that hangs hides no other.
 
     The script takes a folder and names, and writes a file for each name in turn.
-
-    Args:
-        folder: Where the files go.
-        file: File of a name.
 
     Returns:
         What went wrong with those that have no file.

@@ -90,7 +90,6 @@ def differences(found: dict[str, Array], expected: dict[str, Array], tolerance: 
     """What differs, in words; fields by more than a part of their largest value.
 
     Args:
-        found: What ``Outcome.gather`` gave.
         expected: The same of another run.
     """
     if set(found) != set(expected):

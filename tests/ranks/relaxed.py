@@ -26,8 +26,6 @@ class Relaxed(cx.ContactProblem):
     Attributes:
         history: Functions of spaces that a checkpoint can hold: nodes, cells, points of cells.
         fails_above: Difference of t above which a step does not converge.
-        before: The t of the step before.
-        calls: All t for which the loads were set.
     """
 
     def __init__(self, domain: mesh.Mesh, fails_above: float = 1.0):

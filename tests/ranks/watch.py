@@ -32,7 +32,6 @@ def begin(part: str, limit: float) -> None:
     """Begin a part of a script, and end the one before.
 
     Args:
-        part: Its name.
         limit: Seconds that it may take on this rank, whatever the rank is waiting for.
     """
     rank = MPI.COMM_WORLD.rank

@@ -69,11 +69,7 @@ class BallAtEdge:
         self.problem = make_problem(elasticity(u, 1.0, 0.3), u, [self.contact], bcs)
 
     def push(self) -> int:
-        """Push the ball down.
-
-        Returns:
-            Number of iterations.
-        """
+        """Push the ball down; number of iterations."""
 
         def update(t: float) -> None:
             self._way.value[2] = -DOWN * t

@@ -26,11 +26,7 @@ YOUNG, POISSON = 10.0, 0.3
 
 
 def stack(gdim: int, layers: int, width: int) -> np.ndarray:
-    """Centres of layers of balls, every other one with one ball less, a little off their places.
-
-    Args:
-        width: Balls along a side of the lowest one.
-    """
+    """Centres of layers of balls, every other one with one ball less, a little off their places."""
     centres = [
         [PITCH * (i + (k % 2) / 2) + PITCH / 2 for i in at] + [RISE[gdim] * k + RADIUS + 0.05]
         for k in range(layers)
@@ -50,12 +46,6 @@ class LooseBalls:
     def __init__(
         self, gdim: int = 2, *, layers: int = 2, width: int = 3, size: float = 1.5, **options: Any
     ):
-        """Create the problem.
-
-        Args:
-            gdim: 2 for discs.
-            width: Balls along a side of the lowest one.
-        """
         self.centres = stack(gdim, layers, width)
         data = self._mesh(size)
         assert data.cell_tags is not None and data.facet_tags is not None

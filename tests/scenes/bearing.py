@@ -28,11 +28,7 @@ INNER_TAG, OUTER_TAG, BORE_TAG, RIM_TAG, FIRST_ROLLER = 1, 2, 3, 4, 10
 
 
 def make_mesh(size: float) -> Any:
-    """Mesh the sector below the axis.
-
-    Args:
-        size: Of cells where rollers touch rings.
-    """
+    """Mesh the sector below the axis."""
     gmsh.initialize()
     try:
         gmsh.option.setNumber("General.Verbosity", 1)
@@ -104,11 +100,6 @@ class Bearing:
     """
 
     def __init__(self, size: float = 0.06, **options: Any):
-        """Create the problem.
-
-        Args:
-            size: Of cells where rollers touch rings.
-        """
         data = make_mesh(size)
         assert data.cell_tags is not None and data.facet_tags is not None
         self._cells = data.cell_tags

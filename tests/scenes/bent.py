@@ -33,9 +33,6 @@ def cantilever(
 
     In theory of beams half of it lies on the circle, without pressure but at both ends of that
     part.
-
-    Args:
-        cells: Number along it; six across.
     """
     domain = mesh.create_rectangle(
         MPI.COMM_WORLD, [[0, 0], [LENGTH, THICKNESS]], [cells, 6], mesh.CellType.quadrilateral
@@ -63,9 +60,6 @@ def leaves(cells: int, **options: Any) -> cx.Report:
     """Lift the clamp of a spring whose end is held, in one step.
 
     Its leaves touch along their whole length at the start.
-
-    Args:
-        cells: Number along the longest leaf; one across.
     """
     parts = []
     for i in range(LEAVES):

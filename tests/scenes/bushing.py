@@ -41,11 +41,6 @@ class Bushing:
     """
 
     def __init__(self, n: int = 6, **options: Any):
-        """Create the problem.
-
-        Args:
-            n: Cells over the wall.
-        """
         domain = make_mesh(n)
         domain.topology.create_connectivity(1, 2)
         boundary = mesh.exterior_facet_indices(domain.topology)

@@ -12,11 +12,7 @@ import contactx as cx
 
 
 def close_all(contact: cx.Contact) -> Any:
-    """Close all nodes that have a pair, and evaluate the law.
-
-    Returns:
-        Its slave nodes.
-    """
+    """Close all nodes that have a pair, evaluate the law, and return the slave nodes."""
     discrete = contact.discrete
     nodes = discrete.nodes
     discrete.begin_step()

@@ -22,15 +22,7 @@ def parts(contact: cx.Contact) -> tuple[Array, Array]:
 def check_coulomb(
     contact: cx.Contact, tolerance: float, which: npt.NDArray[np.bool_] | None = None
 ) -> dict[str, int]:
-    """Check Coulomb's law and the normal conditions at slave nodes.
-
-    Args:
-        tolerance: Force up to which the conditions were solved.
-        which: Which nodes to check, shape (n,); all if None.
-
-    Returns:
-        Number of all nodes by status.
-    """
+    """Check Coulomb's law and the normal conditions; how many nodes have which status."""
     nodes = contact.discrete.nodes
     p, t = parts(contact)
     mu = np.broadcast_to(contact.discrete.law.friction(nodes), p.shape)

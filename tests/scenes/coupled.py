@@ -38,11 +38,7 @@ def strain(u: Any) -> Any:
 
 
 class Coupled:
-    """Blocks that are pressed together and pushed aside, in one of several formulations.
-
-    Attributes:
-        w: What is solved for.
-    """
+    """Blocks that are pressed together and pushed aside, in one of several formulations."""
 
     def __init__(
         self,

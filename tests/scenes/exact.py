@@ -41,7 +41,6 @@ def smooth(x: Any, body: Tag, *, slips: bool = True) -> Any:
     their moduli, the slip k is not.
 
     Args:
-        x: UFL coordinates.
         slips: Whether k is not zero; without it the displacement is continuous.
     """
     mu, lmbda = _lame(body)
@@ -55,12 +54,7 @@ def smooth(x: Any, body: Tag, *, slips: bool = True) -> Any:
 
 
 def smooth_pressure(x: Any, cos: Any = ufl.cos) -> Any:
-    """Its pressure on the face, positive everywhere.
-
-    Args:
-        x: Coordinates, of UFL or numbers.
-        cos: The cosine for them.
-    """
+    """Its pressure on the face, positive everywhere."""
     return 0.2 + sum(0.1 * cos(4 * x[i]) for i in range(len(x) - 1))
 
 
@@ -72,12 +66,6 @@ def hertz(x: Array, body: Tag, middle: float = MIDDLE) -> Array:
     2 mu v = 2 (1 - nu) Im W - y Re Z with W' = Z. Here Z = -(p0/b) (sqrt(b^2 - z^2) - i z) in the
     lower half-plane, whose real part is minus Hertz's pressure on its edge, and the upper one is
     its mirror image.
-
-    Args:
-        x: Positions, shape (3, n).
-
-    Returns:
-        Displacements, shape (2, n).
     """
     mu, _ = _lame(body)
     up = 1.0 if body == Tag.UPPER else -1.0

@@ -34,11 +34,7 @@ _HIGH = 3
 
 
 class Case:
-    """Two blocks, one above the other, the upper one the slave.
-
-    Attributes:
-        cells: Cells of each body.
-    """
+    """Two blocks, one above the other, the upper one the slave."""
 
     def __init__(
         self, cell: str, n: int, length: float, method: str, *, degree: int = 1, tied: bool = False
@@ -89,9 +85,7 @@ class Case:
         one integrated as a function.
 
         Args:
-            u: Exact displacement in each body.
             pressure: Exact pressure at points of the interface, shape (n, 3).
-            density: The same in UFL.
         """
 
         def norm(of: Callable[[Any], Any], w: Mapping[Tag, Any]) -> float:
@@ -129,7 +123,6 @@ def smooth(
 
     Args:
         n: Number of cells along a unit of length of the slave.
-        tied: Whether the blocks are tied, and do not slip.
     """
     case = Case(cell, n, 1.0, method, degree=degree, tied=tied)
     V = case.u.function_space

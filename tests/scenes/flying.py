@@ -49,8 +49,6 @@ class Flying:
 
         Args:
             obstacle: What the block comes down on; another block if None.
-            young: Young's modulus; the density is 1.
-            aside: Velocity along the first axis.
         """
         gdim = dimension(cell_type)
         data = meshes.blocks(

@@ -28,8 +28,6 @@ class BentStrip:
     (Green and Naghdi 1965), with linear hardening.
 
     Attributes:
-        punch: Contact with the punch.
-        support: Contact with the support.
         history: Plastic strain, and the equivalent one.
     """
 
@@ -86,11 +84,7 @@ class BentStrip:
             f.x.array[:] = value.x.array
 
     def bend(self, way: float, steps: int) -> tuple[int, int]:
-        """Move the punch down.
-
-        Returns:
-            Linear solves of accepted steps, and of attempts that failed.
-        """
+        """Move the punch down; solves of accepted steps, and of attempts that failed."""
 
         def update(t: float) -> None:
             self._top.value[1] = HEIGHT + RADIUS - way * t

@@ -34,11 +34,7 @@ def coefficient(p: Array, gap: Array) -> Array:
 
 
 class HeatedBlocks:
-    """The blocks, each of height 1.
-
-    Attributes:
-        conductance: What flows across it.
-    """
+    """The blocks, each of height 1."""
 
     def __init__(
         self,
@@ -49,12 +45,6 @@ class HeatedBlocks:
         h: Callable[[Array, Array], Array] = coefficient,
         **options: Any,
     ):
-        """Set up.
-
-        Args:
-            degree: Degree of displacement and temperature.
-            h: Coefficient of the conductance.
-        """
         self.dim = dim = dimension(cell)
         n = ((4, 3), (5, 3)) if dim == 2 else ((3, 3, 2), (4, 4, 2))
         data = meshes.blocks(cell, *n)

@@ -58,8 +58,6 @@ class HeldSheet:
         """Create the sheet.
 
         Args:
-            whole: Whether the slave surface is the whole boundary, not the top alone.
-            on_ground: Whether the bottom is fixed, not the ends.
             deep: How deep the tool is at first, by its radius.
         """
         high = max(2, round(thickness * n / 2))

@@ -40,11 +40,6 @@ class HertzSphere:
         degree: int = 1,
         **options: Any,
     ):
-        """Set the problem up.
-
-        Args:
-            young: Young's modulus of each body; 1 where it is not given.
-        """
         tags, u = data.facet_tags, displacement(data.mesh, degree)
         E = of_bodies(data, *_moduli(young))
         self._down = down
@@ -96,10 +91,6 @@ def pressure_error(
     """Relative L2 error of a Hertz sphere's nodal pressures, weighted by area.
 
     Nodes within 1.3 contact radii count; Hertz's pressure is that of the computed force.
-
-    Args:
-        young: Young's modulus of each body; 1 where it is not given.
-        pressure: Pressures of the slave nodes, shape (n,); the raw ones if None.
     """
     hertz = hertz_of(contact, young)
     p = contact.multiplier if pressure is None else pressure
@@ -116,9 +107,6 @@ def integrated_error(
     """Relative L2 error of a Hertz sphere's pressure, integrated over the slave's facets.
 
     What is within 1.3 contact radii counts; Hertz's pressure is that of the computed force.
-
-    Args:
-        young: Young's modulus of each body; 1 where it is not given.
     """
     hertz = hertz_of(contact, young)
     domain = contact.pressure.function_space.mesh

@@ -26,9 +26,6 @@ LIMIT = np.degrees(np.arctan((1 - FRICTION**2) / (2 * FRICTION)))
 def lean(degrees: float, **options: Any) -> tuple[cx.Report, fem.Function]:
     """Let go of a bar that leans on a wall, in one step.
 
-    Args:
-        degrees: Its angle with the floor.
-
     Returns:
         What the step took, and the displacement.
     """

@@ -11,14 +11,12 @@ import ufl
 from dolfinx import fem
 
 from meshes import Tag
+from story import constants
 
 
 def neo_hookean(u: fem.Function, young: Any, nu: Any, degree: int | None = None) -> ufl.Form:
-    """Residual of compressible neo-Hookean bodies, in plane strain where the mesh is plane.
-
-    Args:
-        degree: Degree of the quadrature; UFL's estimate if None.
-    """
+    """Residual of compressible neo-Hookean bodies, in plane strain where the mesh is plane."""
+    young, nu = constants(u, young, nu)
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
     gdim = len(u)
     F = ufl.Identity(gdim) + ufl.grad(u)
@@ -38,11 +36,8 @@ def of_bodies(data: Any, upper: float, lower: float) -> fem.Function:
 def st_venant_kirchhoff(
     u: fem.Function, young: Any, nu: Any, degree: int | None = None
 ) -> ufl.Form:
-    """Residual of bodies that hardly resist being squeezed to nothing, or turned inside out.
-
-    Args:
-        degree: Degree of the quadrature; UFL's estimate if None.
-    """
+    """Residual of bodies that hardly resist being squeezed to nothing, or turned inside out."""
+    young, nu = constants(u, young, nu)
     mu, lmbda = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
     F = ufl.Identity(len(u)) + ufl.grad(u)
     E = (F.T * F - ufl.Identity(len(u))) / 2

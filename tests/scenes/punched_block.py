@@ -25,7 +25,6 @@ class PunchedBlock:
 
     Attributes:
         contact: Contact of its top with what presses it.
-        centre: Centre of the ball, if it is one.
     """
 
     def __init__(
@@ -53,7 +52,6 @@ class PunchedBlock:
             lean: By how much its head is wider, over its foot: its sides lean outward.
             around: Whether its sides are part of the foot's surface, to its edges.
             x0: Place of the ball or the middle of the punch along the top.
-            unit: What all lengths are multiplied by.
         """
         parts = [grid([-1] * gdim, [1] * (gdim - 1) + [0], [n] * (gdim - 1) + [max(2, n // 2)])]
         if punch:

@@ -20,12 +20,6 @@ class Roller:
     """The roller and the block, which is the slave."""
 
     def __init__(self, material: str, method: str, friction: float, *, n: int = 16, **options: Any):
-        """Create the problem.
-
-        Args:
-            material: "svk" or "neo-hooke", of both bodies.
-            n: Cells across the roller; those of the block are as large.
-        """
         block = grid(even(-3, 3, 3 * n), even(-3, 0, n))
         parts = Parts(block, disc(n, 1.0, (0.02, 1.0)), material=material, young=(1.0, 1e3))
         parts.hold(0, "y0")

@@ -48,8 +48,6 @@ class Strip:
         """Create the problem.
 
         Args:
-            ends: Which points are driven.
-            bottom: Which points are on the slave surface.
             aside: How far the circle is moved, so that no node is above its centre.
         """
         self.u = displacement(domain)
@@ -85,11 +83,7 @@ def beam(
     petsc_options: dict[str, Any] | None = None,
     **options: Any,
 ) -> Strip:
-    """A straight beam above the circle, whose ends ``press`` pulls down.
-
-    Args:
-        shape: Which of ``SHAPES``.
-    """
+    """A straight beam above the circle, whose ends ``press`` pulls down."""
     thick, half, _ = SHAPES[shape]
     corners = [[-half, 1.0], [half, 1.0 + thick]]
     domain = mesh.create_rectangle(MPI.COMM_WORLD, corners, [n, 1], mesh.CellType.quadrilateral)

@@ -40,11 +40,6 @@ class Sheared:
 
     One step takes more iterations than it is given, a few go through; deeper than its height none
     does.
-
-    Attributes:
-        calls: All t for which the loads were set.
-        normal: Normal of the plane.
-        history: What a material might remember.
     """
 
     def __init__(self, *, far: float = 3.0, deep: float = 0.5, **options: Any):
@@ -163,9 +158,6 @@ class Rubbing:
 
     Attributes:
         history: A function that belongs to the state.
-        young: Young's modulus in the residual.
-        tangent: Factor of the Jacobian.
-        load: Traction on the top block's side.
     """
 
     def __init__(self, method: str = "node-to-surface", solver: str = "lu", **kind: Any):

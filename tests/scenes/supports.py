@@ -21,11 +21,7 @@ def prescribe(value: fem.Function, tags: mesh.MeshTags, *faces: int) -> fem.Diri
 
 
 class DrivenFaces:
-    """All displacements of some faces.
-
-    Attributes:
-        x: Reference positions of the faces' nodes, shape (n, gdim).
-    """
+    """All displacements of some faces."""
 
     def __init__(self, u: fem.Function, tags: mesh.MeshTags, *faces: int):
         V = u.function_space

@@ -27,12 +27,7 @@ class ThinSheets:
         petsc_options: dict[str, Any] | None = None,
         **options: Any,
     ):
-        """Create them, one above the other with small gaps.
-
-        Args:
-            cells: Number of cells of each along its length of 1.
-            height: Thickness of each.
-        """
+        """Create them, one above the other with small gaps."""
         gap = 0.01 * height
         parts = []
         for k, n in enumerate(cells):

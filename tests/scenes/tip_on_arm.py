@@ -29,11 +29,6 @@ class TipOnArm:
     """
 
     def __init__(self, n: int = 20, *, swapped: bool = False, **options: Any):
-        """Create the bodies.
-
-        Args:
-            n: Cells along the arm; those of the block have the same size.
-        """
         parts = []
         for k, (length, height) in enumerate([(1.0, THICKNESS), (SIDE, SIDE)]):
             points, cells = grid([0, 0], [length, height], [round(n * length), round(n * height)])

@@ -29,7 +29,6 @@ class Tower:
 
     Attributes:
         X: Reference positions of the nodes, shape (num_nodes, gdim).
-        upper: Nodes of the upper box.
         stress: What loads the side faces, if they are asked for.
     """
 

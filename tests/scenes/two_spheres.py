@@ -49,7 +49,6 @@ def mesh(h: float, slave: str) -> MeshData:
 
     Args:
         h: Cell size of the soft sphere in the contact; those of the stiff one are 1.5 times larger.
-        slave: "soft" or "stiff".
     """
     sizes = (h, 1.5 * h) if slave == "soft" else (1.5 * h, h)
     return meshes.half_spheres(RADIUS, *sizes, zone=ZONE)
@@ -59,11 +58,6 @@ class TwoSpheres:
     """The spheres, with the upper one as the slave; its flat face moves down."""
 
     def __init__(self, data: MeshData, *, slave: str, sliding: str, method: str):
-        """Set the problem up.
-
-        Args:
-            slave: "soft" or "stiff".
-        """
         tags, u = data.facet_tags, displacement(data.mesh)
         E = of_bodies(data, *((SOFT, STIFF) if slave == "soft" else (STIFF, SOFT)))
         self._top = fix(u, tags, 2, 0.0, Tag.UPPER_TOP)
@@ -102,9 +96,6 @@ class TwoSpheres:
 
         Hertz's mean distance from the axis, weighted by the pressure, is 3 pi/16 of the radius. As
         in his theory it is that of the undeformed bodies.
-
-        Args:
-            pressure: Pressures of the slave nodes, shape (n,).
         """
         x = self.problem.u.function_space.tabulate_dof_coordinates()[self.contact.slave_nodes]
         forces = self.contact.area * pressure

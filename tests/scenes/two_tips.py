@@ -27,12 +27,7 @@ class TwoTips:
     """
 
     def __init__(self, *, overlap: float = 0.05, n: int = 20, whole: bool = False, **options: Any):
-        """Create the cantilevers.
-
-        Args:
-            overlap: Length by which they are above each other.
-            whole: Whether the surfaces are the whole boundaries.
-        """
+        """Create the cantilevers."""
         parts = []
         for k in range(2):
             right, up = k * (1 - overlap), k * 1.5 * THICKNESS

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Dirichlet values on nodes of a contact, against elimination by hand."""
+"""Dirichlet values on nodes of a contact."""
 
 import numpy as np
 import pytest
@@ -25,74 +25,6 @@ def master_values(scene):
     value = fem.Function(V)
     value.interpolate(lambda x: np.stack([0.01 + 0.02 * x[0] for _ in range(gdim)]))
     return fem.dirichletbc(value, some)
-
-
-@pytest.mark.parametrize("cell", [CellType.triangle, CellType.tetrahedron, CellType.hexahedron])
-def test_prescribed_master_nodes(cell):
-    scene = Blocks(cell)
-    scene.bcs.append(master_values(scene))
-    contact = scene.contact("small")
-    problem = scene.problem(contact)
-    problem.solve()
-    closed = contact.discrete.nodes.status != 0
-    assert closed.any()
-
-    # The same linear system with the final active set, all prescribed values eliminated by hand
-    n = len(scene.u.x.array)
-    zero = fem.Function(scene.u.function_space)
-    K = sum(fem.assemble_matrix(part).to_dense() for part in problem.assembler.bulk.blocks.J[0][0])
-    D = constraint_matrix(contact, n)[closed]
-    gap = gap_at(contact, zero)[closed]
-    prescribed = problem.assembler.bulk.markers == 1
-    values = np.zeros(n)
-    for bc in scene.bcs:
-        bc.set(values)
-    free = ~prescribed
-    A = np.block(
-        [
-            [K[np.ix_(free, free)], -D[:, free].T],
-            [D[:, free], np.zeros((closed.sum(), closed.sum()))],
-        ]
-    )
-    rhs = np.r_[
-        -K[np.ix_(free, prescribed)] @ values[prescribed],
-        -gap - D[:, prescribed] @ values[prescribed],
-    ]
-    solution = np.linalg.solve(A, rhs)
-    u = values.copy()
-    u[free] = solution[: free.sum()]
-    assert np.abs(scene.u.x.array - u).max() <= 1e-13
-    force = solution[free.sum() :]
-    assert np.abs(contact.area[closed] * contact.multiplier[closed] - force).max() <= 1e-12
-
-
-def constraint_matrix(contact, n):
-    """Derivative of the gaps with respect to the displacement, by exact differences."""
-    u = contact.discrete.halo.displacement.array
-    keep = u.copy()
-    u[:] = 0
-    contact.discrete.update_gap()
-    base = contact.discrete.nodes.gap.copy()
-    D = np.zeros((len(base), n))
-    for i in range(n):
-        u[i] = 1
-        contact.discrete.update_gap()
-        D[:, i] = contact.discrete.nodes.gap - base
-        u[i] = 0
-    u[:] = keep
-    contact.discrete.update_gap()
-    return D
-
-
-def gap_at(contact, function):
-    u = contact.discrete.halo.displacement.array
-    keep = u.copy()
-    u[:] = function.x.array
-    contact.discrete.update_gap()
-    gap = contact.discrete.nodes.gap.copy()
-    u[:] = keep
-    contact.discrete.update_gap()
-    return gap
 
 
 @pytest.mark.parametrize("sliding", ["small", "finite"])

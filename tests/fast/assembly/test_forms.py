@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Contact forms and the whole Jacobian against dense assembly by hand and central differences."""
+"""Contact forms against the blocks of the core."""
 
 from petsc4py import PETSc
 
@@ -10,65 +10,7 @@ import pytest
 from contactx import cpp as core
 from dolfinx import cpp, fem
 
-from meshes import Tag
 from scenes import CELLS, Blocks
-
-
-class ByHand:
-    """Gaps, normals and weights of all slave nodes from the plane reference facets."""
-
-    def __init__(self, scene, contact):
-        V = scene.u.function_space
-        X = V.tabulate_dof_coordinates()
-        gdim = V.mesh.geometry.dim
-        slaves = contact.slave_nodes
-        facets = master_facets(scene, X)
-        self.n = len(slaves)
-        self.normal = np.zeros(gdim)
-        self.normal[-1] = 1
-        # B maps all displacements to the slave nodes' relative displacements
-        self.B = np.zeros((self.n * gdim, X.shape[0] * gdim))
-        for k, slave in enumerate(slaves):
-            nodes, weights = find(facets, X, X[slave])
-            for i in range(gdim):
-                self.B[k * gdim + i, slave * gdim + i] += 1
-                self.B[k * gdim + i, nodes * gdim + i] -= weights
-        rows = np.arange(self.n) * gdim + gdim - 1
-        self.D = self.B[rows]
-        self.gap = self.D @ X[:, :gdim].ravel()
-
-
-def master_facets(scene, X):
-    """Nodes of the lower block's contact facets, from the mesh alone."""
-    mesh = scene.u.function_space.mesh
-    fdim = mesh.topology.dim - 1
-    entities = scene.tags.find(Tag.LOWER_CONTACT)
-    mesh.topology.create_connectivity(fdim, mesh.topology.dim)
-    geometry = cpp.mesh.entities_to_geometry(mesh._cpp_object, fdim, entities, False)
-    x = mesh.geometry.x
-    return [
-        np.array([np.argmin(np.linalg.norm(X - x[g], axis=1)) for g in facet]) for facet in geometry
-    ]
-
-
-def find(facets, X, p):
-    """Facet below a point and its shape functions there; every facet is plane and axis-aligned."""
-    for nodes in facets:
-        x = X[nodes]
-        if len(nodes) == 2:
-            s = (p[0] - x[0, 0]) / (x[1, 0] - x[0, 0])
-            weights = np.array([1 - s, s])
-        elif len(nodes) == 3:
-            A = np.vstack([x[:, :2].T, np.ones(3)])
-            weights = np.linalg.solve(A, [p[0], p[1], 1])
-        else:
-            lower, upper = x[:, :2].min(axis=0), x[:, :2].max(axis=0)
-            at = np.where(np.isclose(x[:, :2], upper), 1, 0)
-            s = (p[:2] - lower) / (upper - lower)
-            weights = np.prod(np.where(at, s, 1 - s), axis=1)
-        if weights.min() > -1e-12:
-            return nodes, weights
-    raise AssertionError(f"no facet below {p}")
 
 
 def assembled(form, shape):
@@ -83,53 +25,8 @@ def assembled(form, shape):
     return dense
 
 
-@pytest.fixture(params=CELLS, ids=lambda c: c.name)
-def case(request):
-    scene = Blocks(request.param, gap=0.1)
-    contact = scene.contact("small")
-    scene.problem(contact)
-    rng = np.random.default_rng(5)
-    scene.u.x.array[:] = 0.1 * rng.standard_normal(len(scene.u.x.array))
-    contact.multiplier[:] = rng.standard_normal(len(contact.multiplier))
-    contact.discrete.nodes.by_gap[:] = rng.standard_normal(len(contact.multiplier))
-    return scene, contact, ByHand(scene, contact)
-
-
 def close(computed, reference):
     return np.abs(computed - reference).max() <= 1e-13 * max(1, np.abs(reference).max())
-
-
-def test_gap(case):
-    scene, contact, hand = case
-    contact.discrete.update_gap()
-    assert close(contact.discrete.nodes.gap, hand.gap + hand.D @ scene.u.x.array)
-
-
-def test_residual(case):
-    scene, contact, hand = case
-    b = np.zeros(len(scene.u.x.array))
-    contact.discrete.add_residual(b)
-    assert close(b, -hand.D.T @ (contact.area * contact.multiplier))
-
-
-def test_traction_block(case):
-    scene, contact, hand = case
-    n = len(scene.u.x.array)
-    block = sum(assembled(form, (n, hand.n)) for form in contact.forms().B)
-    assert close(block, -hand.D.T * contact.area)
-
-
-def test_constraint_block(case):
-    scene, contact, hand = case
-    n = len(scene.u.x.array)
-    block = sum(assembled(form, (hand.n, n)) for form in contact.forms().C)
-    factor = contact.discrete.nodes.by_gap
-    assert close(block, factor[:, None] * hand.D)
-
-
-def test_small_sliding_has_no_stiffness(case):
-    _, contact, _ = case
-    assert contact.forms().K == []
 
 
 def test_petsc_is_real_double():

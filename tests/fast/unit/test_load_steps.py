@@ -54,17 +54,6 @@ def test_a_step_that_fails_is_cut_and_reaches_the_same_end():
     assert direct.state() == scene.state()
 
 
-def test_growth():
-    """After easy steps, where these are told, else once a failure is made up for."""
-    scene, short = Sheared(far=12.0), Sheared(far=12.0)
-    steps = list(scene.steps(1))
-    assert steps[0].t == 0.125 and steps[-1].t == 1 and len(steps) < 12
-    assert sum(s.report.discarded for s in steps) <= 2 * sum(s.iterations for s in steps)
-    lengths = np.diff([0.0, *(step.t for step in short.steps(1, easy=0))])
-    assert len(lengths) == 15
-    assert np.all(np.diff(lengths) <= 0)
-
-
 def test_a_final_failure_leaves_the_last_accepted_step():
     scene = Sheared(far=0.0, deep=1.5)
     states, found = [scene.state()], []

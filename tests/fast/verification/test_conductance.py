@@ -67,20 +67,6 @@ def test_nodes_give_nearly_the_same(cell, degree, friction):
 
 
 @pytest.mark.parametrize("method", [NODES, MORTAR])
-def test_nothing_is_lost(method):
-    """What the hot side gives is what crosses and what the cold side takes."""
-    scene = HeatedBlocks(CellType.triangle, method=method)
-    problem = scene.problem()
-    problem.solve()
-    b = fem.assemble_vector(fem.form(scene.F[1]))
-    ends = [b.array[bc.dof_indices()[0]].sum() for bc in scene.heat]
-    assert ends[0] == pytest.approx(-ends[1], rel=1e-9)
-    assert scene.conductance.flow == pytest.approx(ends[0], rel=1e-9)
-    residual = scene.conductance.residual()
-    assert abs(residual.sum()) < 1e-12 * np.abs(residual).sum()
-
-
-@pytest.mark.parametrize("method", [NODES, MORTAR])
 def test_field_by_field_comes_to_the_same(method):
     """Displacement for a temperature, temperature for a contact, and again."""
     together = HeatedBlocks(method=method)
@@ -115,38 +101,6 @@ def test_field_by_field_comes_to_the_same(method):
     assert change < 1e-9 * HOT
     assert np.abs(scene.T.x.array - together.T.x.array).max() < 1e-7 * HOT
     assert np.abs(scene.u.x.array - together.u.x.array).max() < 1e-9
-
-
-@pytest.mark.parametrize("friction", [0.0, 0.2])
-@pytest.mark.parametrize("method", [NODES, MORTAR])
-def test_the_jacobian_is_the_derivative(method, friction):
-    """In the field's rows, by field, gap and pressure, where pairs do not move and p is nodal."""
-    scene = HeatedBlocks(gap=0.2, method=method, friction=friction, sliding="small")
-    problem = scene.problem()
-    problem.solve()
-    assembler = problem.assembler
-    assembler.begin_step()
-    assembler.settle()
-    system, rng = assembler.system, np.random.default_rng(1)
-    n, n_bulk = system.num_displacements, system.num_bulk
-    way, b, product = (assembler.create_vector() for _ in range(3))
-    way.array[:n_bulk] = rng.uniform(-1, 1, n_bulk)
-    x0 = assembler.x.copy()
-    assembler.jacobian().mult(way, product)
-    quotient, step = np.zeros(len(b.array)), 1e-6
-    for sign in (1, -1):
-        system.unpack(x0 + sign * step * way)
-        system.residual(b)
-        quotient += sign * b.array / (2 * step)
-    marked = np.concatenate(assembler.bulk.blocks.markers[1:])[: n_bulk - n]
-    rows = n + np.flatnonzero(marked == 0)
-    scale = np.abs(quotient[rows]).max()
-    assert scale > 0.1
-    assert np.abs(product.array[rows] - quotient[rows]).max() < 1e-6 * scale
-    # It is the gap that tells the displacement's columns
-    way.array[n:] = 0
-    assembler.jacobian().mult(way, product)
-    assert np.abs(product.array[rows]).max() > 1e-3
 
 
 def test_pressure_opens_the_way():
@@ -195,17 +149,6 @@ def test_an_obstacle_has_a_temperature(method, degree):
         assert conductance.flow == pytest.approx(exact, rel=1e-9)
 
 
-def test_what_is_switched_off_does_not_conduct():
-    scene = HeatedBlocks(method=MORTAR)
-    problem = scene.problem()
-    scene.contact.active = False
-    problem.solve()
-    assert scene.conductance.flow == 0
-    scene.contact.active = True
-    problem.solve()
-    assert scene.conductance.flow > 1
-
-
 @pytest.mark.parametrize("method", [NODES, MORTAR])
 @pytest.mark.parametrize("degree", [1, 2])
 def test_results_on_both_surfaces(method, degree):
@@ -235,18 +178,6 @@ def test_results_on_both_surfaces(method, degree):
         flow = total(coefficient(p, 0.0) * abs(scene.T - across) * face)
         assert jump > 1
         assert flow == pytest.approx(scene.exact()[2] * area, rel=1e-8 if exact else 0.1 * degree)
-
-
-def test_a_linear_field_is_seen_across():
-    """The other side's value of a field that is linear and continuous is the field's own."""
-    scene = HeatedBlocks(CellType.quadrilateral, degree=2, method=MORTAR)
-    scene.problem()
-    contact = scene.contact
-    f = fem.Function(scene.T.function_space)
-    f.interpolate(lambda x: 3 + 2 * x[0])
-    transfer = cx.cpp.Transfer(contact.discrete)
-    inner = transfer.differences(np.ascontiguousarray(f.x.array))
-    assert np.abs(inner).max() < 1e-12
 
 
 class TestRefusals:

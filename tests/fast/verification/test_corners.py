@@ -68,36 +68,6 @@ def test_a_block_in_a_corner(cell, friction, twice):
         assert not (first.multiplier.any() and second.multiplier.any())
 
 
-@covering(
-    cell=(CellType.quadrilateral, CellType.hexahedron),
-    friction=(0.0, 0.3),
-    sliding=SLIDINGS,
-    method=METHODS,
-)
-def test_a_surface_is_slave_here_and_master_there(cell, friction, sliding):
-    """The middle one of three blocks: its edge nodes are slave of one and master of another."""
-    tags, u, bcs = stack(cell)
-    gdim = len(u)
-    middle = {side: cx.Surface(tags, block_tag(1, side)) for side in ("bottom", "top", "x0")}
-    pairs = [
-        (middle["bottom"], cx.Surface(tags, block_tag(0, "top"))),
-        (cx.Surface(tags, block_tag(2, "bottom")), middle["top"]),
-    ]
-    # The nodes of a side are in a contact with a wall, too, which it never reaches
-    far = cx.Plane(-9 * np.eye(gdim)[0], np.eye(gdim)[0])
-    contacts = [
-        *(cx.Contact(*pair, friction=friction, sliding=sliding) for pair in pairs),
-        cx.Contact(middle["x0"], far, friction=friction, sliding=sliding),
-    ]
-    problem = make_problem(elasticity(u, 1.0, NU), u, contacts, bcs)
-    problem.solve()
-    below, above, aside = (contact.force for contact in contacts)
-    assert not aside.any()
-    assert problem.report.corners == 0
-    assert below[-1] == pytest.approx(above[-1], rel=1e-9)
-    assert below[-1] > 0.01
-
-
 def stack(cell):
     """Facet tags, displacement and supports of three blocks, pressed together."""
     gdim = 2 if cell == CellType.quadrilateral else 3

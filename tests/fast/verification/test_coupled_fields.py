@@ -173,36 +173,6 @@ def test_a_hand_written_loop_solves_it_too():
     assert assembler.blocks()["K"].getSize() == (size, size)
 
 
-def test_the_jacobian_is_that_of_all_rows():
-    scene = Coupled("neo-Hooke", friction=0.2)
-    scene.problem.solve()
-    assembler = scene.problem.assembler
-    assembler.begin_step()
-    assembler.settle()
-    rng = np.random.default_rng(3)
-    x0, b, way = assembler.x.copy(), assembler.create_vector(), assembler.create_vector()
-    way.array[:] = rng.uniform(-1, 1, len(way.array))
-    # Without contact, whose law has kinks
-    way.array[assembler.system.num_bulk :] = 0
-    n = assembler.system.num_displacements
-    way.array[:n][assembler.bulk.markers[:n] == 1] = 0
-    product = assembler.create_vector()
-    assembler.jacobian().mult(way, product)
-    quotient = np.zeros(len(b.array))
-    step = 1e-6
-    for sign in (1, -1):
-        assembler.system.unpack(x0 + sign * step * way)
-        assembler.system.residual(b)
-        quotient += sign * b.array / (2 * step)
-    free = np.ones(len(quotient), dtype=bool)
-    free[:n] = assembler.bulk.markers[:n] == 0
-    free[assembler.system.num_bulk :] = False
-    size = np.abs(quotient[free]).max()
-    assert np.abs(product.array - quotient)[free].max() < 1e-7 * size
-    assembler.system.unpack(x0)
-    assembler.restore()
-
-
 def test_a_jacobian_may_be_given():
     scene = Coupled("blocks")
     scene.problem.solve()

@@ -178,18 +178,6 @@ def test_a_step_that_fails_leaves_everything_as_it_was():
     assert scene.dynamics.report.balance is None
 
 
-def test_load_steps_count_time_and_cut_it():
-    scene = Flying(CELL, friction=0.3, petsc_options={"snes_max_it": 3, "snes_rtol": 1e-9})
-    taken, t = [], 0.0
-    for step in steps(scene):
-        assert step.report.balance.dt == pytest.approx(step.t - t)
-        taken.append(step.t - t)
-        t = step.t
-    assert t == pytest.approx(STEPS * DT)
-    assert min(taken) < 0.6 * DT
-    assert max(taken) <= DT * (1 + 1e-12)
-
-
 @pytest.mark.parametrize("obstacle", [None, cx.Plane((0, 0), (0, 1))], ids=["block", "plane"])
 def test_steps_are_short_at_an_impact(obstacle):
     """The time of the first contact comes out by as much as the way of that step says."""

@@ -84,13 +84,6 @@ def test_one_that_moves_under_friction_is_refused(kind):
     assert scene.problem.report.iterations == 0
 
 
-def test_a_sphere_drags_what_it_touches():
-    scene = Dragged("sphere", friction=0.5)
-    scene.step()
-    scene.step(0.01)
-    assert scene.contact.force[0] > 1e-4
-
-
 @pytest.mark.parametrize("kind", ["ufl", "python"])
 def test_without_friction_it_may_move(kind):
     scene, same = Dragged(kind), Dragged("sphere")

@@ -73,12 +73,3 @@ def test_nothing_tangential_exists_without_friction(sliding, method):
         assert len(form._cpp_object.coefficients) == 6
     for name in ("slip", "slip_total"):
         assert not getattr(contact, name).x.array.any()
-
-
-def test_the_constant_zero_measures_slip():
-    problem, contact = hertz_sphere(0.04, "small", friction=constant(0.0))
-    problem.solve()
-    assert contact.multiplier.shape == (len(contact.slave_nodes), 3)
-    assert contact.slip_total.x.array.max() > 1e-4
-    slip = contact.slip.x.array.reshape(-1, 3)
-    assert np.linalg.norm(slip, axis=1).max() == pytest.approx(contact.slip_total.x.array.max())

@@ -80,17 +80,6 @@ def test_a_ring_that_is_pulled_aside_in_a_perfect_fit():
     assert (coarse > 0).mean() == pytest.approx((fine > 0).mean(), abs=0.06)
 
 
-@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.tetrahedron])
-def test_flat_surfaces_are_as_they_were(cell):
-    results = []
-    for smooth in (False, True):
-        blocks = Blocks(cell)
-        contact = blocks.contact(friction=0.2, smooth=smooth)
-        blocks.problem(contact).solve()
-        results.append(blocks.u.x.array.copy())
-    np.testing.assert_allclose(*results, rtol=0, atol=1e-9 * np.abs(results[0]).max())
-
-
 @pytest.mark.parametrize("options,why", [({"tied": True}, "ties"), ({}, "obstacle")])
 def test_what_it_is_not_for(options, why):
     blocks = Blocks(CellType.quadrilateral)
@@ -123,25 +112,6 @@ def test_bodies_apart_or_overlapping_are_as_if_they_touched(gap, sliding, cell):
     near = TOLERANCE[sliding]
     np.testing.assert_allclose(blocks.u.x.array, flush.u.x.array, rtol=0, atol=near)
     np.testing.assert_allclose(contact.multiplier, right.multiplier, rtol=0, atol=20 * near)
-    np.testing.assert_allclose(contact.force, right.force, rtol=near, atol=2 * near)
-
-
-@pytest.mark.parametrize("sliding", SLIDING)
-def test_a_larger_gap_stays(sliding):
-    as_it_is, _ = solved(0.02, sliding=sliding)
-    adjusted, contact = solved(0.02, sliding=sliding, adjust=0.01)
-    np.testing.assert_array_equal(adjusted.u.x.array, as_it_is.u.x.array)
-    # From 0.05 together, 0.02 are left before they touch
-    assert abs(contact.force[1]) < abs(solved(0.02, sliding=sliding, adjust=0.03)[1].force[1])
-
-
-@pytest.mark.parametrize("sliding", SLIDING)
-@pytest.mark.parametrize("gap", [0.02, -0.02])
-def test_interference_comes_on_top(gap, sliding):
-    flush, right = solved(0.0, sliding=sliding, offset=0.01)
-    blocks, contact = solved(gap, sliding=sliding, offset=0.01, adjust=0.03)
-    near = TOLERANCE[sliding]
-    np.testing.assert_allclose(blocks.u.x.array, flush.u.x.array, rtol=0, atol=near)
     np.testing.assert_allclose(contact.force, right.force, rtol=near, atol=2 * near)
 
 

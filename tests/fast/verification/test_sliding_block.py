@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Blocks that stick, slide and slide back, in partial slip, over many facets and over edges."""
 
-from mpi4py import MPI
-
 import numpy as np
 import pytest
 
 import contactx as cx
-from dolfinx import fem, mesh
 from dolfinx.mesh import CellType
 
 from scenes import CELLS, dimension
@@ -22,7 +19,6 @@ pytestmark = pytest.mark.usefixtures("method")
 MU = 0.3
 DOWN = -0.02
 BASES = ("plane", "elastic")
-BOXES = (CellType.quadrilateral, CellType.hexahedron)
 
 
 def block(cell, base, sliding, **options):
@@ -36,15 +32,6 @@ def block(cell, base, sliding, **options):
 def along(scene, x, down=DOWN):
     """Move the top along the first axis."""
     scene.step(x, *(0.0,) * (scene.gdim - 2), down)
-
-
-def on_moving_plane(cell, sliding):
-    """A block on a plane whose point is a constant that may be changed."""
-    gdim = dimension(cell)
-    domain = mesh.create_unit_square(MPI.COMM_SELF, 1, 1)
-    point = fem.Constant(domain, np.zeros(gdim))
-    plane = cx.Plane(point, (0.0,) * (gdim - 1) + (1.0,))
-    return DrivenBlock(cell, plane=plane, sliding=sliding, friction=MU), point
 
 
 def resistance(scene):
@@ -106,45 +93,6 @@ def test_circular_path(base, sliding):
         off.append(np.degrees(np.arccos(cosine)))
     print(scene.iterations, f"{max(off):.2f} degrees off")
     assert max(off) < 5
-
-
-@covering(cell=BOXES, sliding=SLIDINGS, method=METHODS)
-def test_a_plane_that_moves_drags_a_fixed_block(cell, sliding):
-    gdim = dimension(cell)
-    scene, point = on_moving_plane(cell, sliding)
-    along(scene, 0.0)
-    point.value[0] += 0.2
-    along(scene, 0.0)
-    assert resistance(scene) == pytest.approx(1, abs=0 if gdim == 2 else 0.01, rel=1e-8)
-    slip = scene.contact.discrete.history.slip
-    print(scene.iterations, slip[:, 0])
-    assert np.all(slip[:, 0] < -0.15)
-    # A new step in which nothing moves slips no more, and keeps its force
-    force = scene.contact.force.copy()
-    along(scene, 0.0)
-    assert scene.contact.force == pytest.approx(force, rel=1e-9, abs=1e-12)
-    assert np.abs(scene.contact.discrete.history.slip).max() < 1e-12
-
-
-@covering(guess=(True, False), cell=BOXES, sliding=SLIDINGS, method=METHODS)
-def test_a_plane_that_moves_with_the_block_feels_nothing(guess, cell, sliding):
-    """Neither a block that has only been pressed nor one that has slid."""
-    gdim = dimension(cell)
-    for first in (0.0, 0.1):
-        scene, point = on_moving_plane(cell, sliding)
-        along(scene, first)
-        force, t = scene.contact.force.copy(), parts(scene.contact)[1]
-        u = scene.u.x.array.copy()
-        if guess:
-            scene.u.x.array.reshape(-1, gdim)[:, 0] += 0.37
-        point.value[0] += 0.37
-        along(scene, first + 0.37)
-        assert scene.contact.force == pytest.approx(force, rel=1e-9, abs=1e-12)
-        assert parts(scene.contact)[1] == pytest.approx(t, abs=1e-9 * np.abs(t).max())
-        assert np.abs(scene.contact.discrete.history.slip).max() < 1e-9
-        moved = (scene.u.x.array - u).reshape(-1, gdim) - np.eye(gdim)[0] * 0.37
-        assert np.abs(moved).max() < 1e-9
-        print(scene.iterations)
 
 
 def test_a_foot_that_opens_only_where_its_slip_turns_back():
@@ -217,7 +165,6 @@ def check_full_slide(scene, exact, method):
     """All slide against friction times pressure; returns the size of the friction force.
 
     Args:
-        exact: Whether all slide in the same direction.
         method: By surface-to-surface normals are the slave's, which bends at its free edges.
     """
     contact = scene.contact

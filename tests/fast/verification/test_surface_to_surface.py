@@ -12,7 +12,6 @@ from scenes import CELLS, Blocks, dimension, hertz_sphere
 from scenes.covering import SLIDINGS, covering
 from scenes.driven import DrivenBlock
 from scenes.materials import neo_hookean
-from scenes.patch import WidePatch
 from scenes.tower import Tower, lift
 from scenes.transforms import rotation
 
@@ -74,7 +73,7 @@ def test_very_different_meshes(cell, sliding, n):
 
 
 @covering(cell=CELLS, sliding=SLIDINGS, friction=(0.0, 0.3), method=(NODE, SURFACE))
-def test_contact_is_lost_and_closes_again(cell, sliding, friction):
+def test_contact_is_lost_and_closes_again(cell, sliding, friction, method):
     scene = Blocks(cell)
     contact = scene.contact(sliding, friction=friction)
     problem = scene.problem(contact)
@@ -216,19 +215,6 @@ def test_distorted_quadrilaterals(seed, sliding):
     """Nodes move by up to a quarter of a cell; inverse maps of such facets are no polynomials."""
     shape = Shape(CellType.hexahedron, distortion=0.25, seed=seed)
     assert np.all(worst(Patch(shape, sliding=sliding, method=SURFACE)) <= EXACT)
-
-
-@pytest.mark.parametrize(
-    ("cell", "sliding"), [*zip(CELLS, ["finite", "small", "small", "finite"], strict=True)]
-)
-def test_wider_master(cell, sliding):
-    """Master facets that are covered in part, by a slave whose outline they do not follow."""
-    turn = rotation(np.random.default_rng(8), dimension(cell))
-    aligned = Shape(cell, 3, 5, distortion=0.0, turn=turn, width_lower=5 / 3, shift=1 / 3)
-    assert np.all(worst(WidePatch(aligned, sliding=sliding, method=NODE)) <= EXACT)
-    shape = Shape(cell, 4, 5, turn=turn, width_lower=1.6, shift=0.27)
-    assert np.all(worst(WidePatch(shape, sliding=sliding, method=SURFACE)) <= EXACT)
-    assert np.all(worst(WidePatch(shape, sliding=sliding, method=NODE)) > 1e-3)
 
 
 @covering(cell=CELLS, method=(NODE, SURFACE), slave=SLAVES, sliding=SLIDINGS)

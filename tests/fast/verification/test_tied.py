@@ -80,28 +80,6 @@ def test_boxes_that_do_not_match_are_nearly_one_body(cell, n):
 
 
 @covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
-def test_untied_boxes_part(cell, sliding):
-    tower = Tower(cell, 2, 3, sliding=sliding)
-    tower.solve(*lift(tower.gdim, 0.1))
-    assert np.array_equal(tower.contact.force, np.zeros(tower.gdim))
-    assert np.all(tower.contact.discrete.nodes.status == 0)
-    assert np.nanmin(tower.contact.discrete.nodes.gap) == pytest.approx(0.1, rel=1e-9)
-
-
-@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
-def test_tension_is_compression_with_the_other_sign(cell, sliding):
-    up, down = (
-        Tower(cell, 2, 3, tied=True, nu=0.3, sliding=sliding).solve(*s * lift(3, 0.05, 0.02)[-g:])
-        for g in [dimension(cell)]
-        for s in (1, -1)
-    )
-    size = np.abs(up.contact.multiplier).max()
-    assert size > 0.01
-    assert np.abs(up.contact.multiplier + down.contact.multiplier).max() <= 1e-10 * size
-    assert np.abs(up.u.x.array + down.u.x.array).max() <= 1e-12
-
-
-@covering(cell=CELLS, sliding=SLIDINGS, method=METHODS)
 def test_much_friction_under_pressure_is_a_tie(cell, sliding, method):
     tied = Tower(cell, 4, 3, tied=True, nu=0.3, sliding=sliding)
     rough = Tower(cell, 4, 3, friction=1e6, nu=0.3, sliding=sliding)

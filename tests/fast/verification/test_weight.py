@@ -161,18 +161,6 @@ def test_friction_obeys_coulomb_and_the_solvers_agree(method):
     assert answers[1] == pytest.approx(answers[0], abs=1e-10)
 
 
-def test_values_between_nodes_are_interpolated():
-    # A weight that is not linear: the areas are those of its nodal values
-    scene = Blocks(CellType.triangle, n_upper=4)
-    x = ufl.SpatialCoordinate(scene.u.function_space.mesh)
-    contact = scene.contact(weight=1 + x[0] ** 2)
-    scene.problem(contact)
-    nodes = scene.u.function_space.tabulate_dof_coordinates()[contact.slave_nodes, 0]
-    order = np.argsort(nodes)
-    s, w = nodes[order], 1 + nodes[order] ** 2
-    assert contact.area.sum() == pytest.approx(np.sum(np.diff(s) * (w[1:] + w[:-1]) / 2))
-
-
 def test_weights_that_do_not_fit_the_surface_are_refused():
     scene, other = Blocks(CellType.triangle), Blocks(CellType.triangle)
     x = ufl.SpatialCoordinate(scene.u.function_space.mesh)

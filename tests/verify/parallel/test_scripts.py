@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Scripts that compare several ranks with one: checkpoints, load steps, meshes, files."""
+"""Scripts that compare several ranks with one: checkpoints, load steps, files."""
 
 from itertools import product
 
@@ -9,7 +9,6 @@ import pytest
 from ranks import checkpoint_ranks
 from ranks.launch import SCRIPTS, launch
 from ranks.load_steps_ranks import PAIRS
-from ranks.mesh_numbers import MODELS
 from ranks.relaxed import MESHES
 
 # Ranks, what is said, and how often all ranks raise the same
@@ -26,11 +25,6 @@ RUNS = {
         4,
         [f"{name}: {n} ranks, then {m}" for name, (n, m) in product(MESHES, PAIRS)],
         16,
-    ),
-    "mesh_numbers": (
-        4,
-        [f"{name}: the same on {size} ranks" for name, size in product(MODELS, (2, 3, 4))],
-        0,
     ),
     "output_ranks": (
         3,

@@ -359,8 +359,3 @@ def errors_of_cylinder(h, sliding):
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 def test_cylinder_on_the_default_mesh(sliding):
     assert np.all(errors_of_cylinder(0.006, sliding) <= 0.03)
-
-
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-def test_a_finer_cylinder_is_better(sliding):
-    assert np.all(errors_of_cylinder(0.002, sliding) < errors_of_cylinder(0.006, sliding))

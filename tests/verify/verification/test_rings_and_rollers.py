@@ -45,12 +45,6 @@ def test_press_fit(sliding, young_outer, method):
     assert np.all(finer < default)
 
 
-@pytest.mark.usefixtures("method")
-@pytest.mark.parametrize("sliding", ["finite", "small"])
-def test_coarse(sliding):
-    assert np.all(errors(0.05, sliding, 1.0)[:2] <= 0.01)
-
-
 @pytest.mark.parametrize("sliding", ["finite", "small"])
 def test_clearance(sliding, method):
     problem, contact = press_fit.create(0.05, sliding, interference=-0.01)
