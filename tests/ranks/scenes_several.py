@@ -91,12 +91,8 @@ def _pressed(obstacle: Obstacle, **options: Any) -> Iterator[cx.ContactProblem]:
 
 
 def corner_3d() -> Iterator[cx.ContactProblem]:
-    yield from _corner(CellType.tetrahedron, 3)
-
-
-def _corner(cell: CellType, n: int) -> Iterator[cx.ContactProblem]:
     """A block without supports in the corner of floor and wall, and another floor below."""
-    scene = Blocks(cell, n_upper=n)
+    scene = Blocks(CellType.tetrahedron, n_upper=3)
     u, tags, gdim = scene.u, scene.tags, len(scene.u)
     up, aside = np.eye(gdim)[-1], np.eye(gdim)[0]
     for face, load in ((Tag.UPPER_TOP, up), (Tag.UPPER_X1, aside)):

@@ -9,7 +9,6 @@ Two blocks, the upper one on the lower one:
   each step is checked against Coulomb's law.
 - ``tower``: ``Tower``, boxes of one width, tied or not, to which known fields are given.
 - ``exact_blocks``: blocks whose solution is known, by the formulas in ``exact``.
-- ``patch``: ``WidePatch``, of a uniform pressure.
 - ``coupled``: blocks whose displacement is solved for with a pressure or a temperature; ``heat``:
   blocks in line that heat presses together, with the exact answer.
 - ``transforms``: any two bodies, solved in other units, axes and numbers.

@@ -119,10 +119,12 @@ def pulled(u: fem.Function, young: float, nu: float) -> ufl.Form:
     return elasticity(u, young, nu) - pull * ufl.TestFunction(u.function_space)[0] * ufl.dx
 
 
-def lame_pressure(interference: float) -> float:
-    """Pressure between the rings if the outer one is fixed at its rim: Lame's, in plane strain."""
+def lame_pressure(interference: float, fixed: bool = True) -> float:
+    """Pressure between the rings, the outer one fixed at its rim or free: Lame's, plane strain."""
     a, b, c = RADII
     nu = 0.3
     inner = b * (1 + nu) * ((1 - 2 * nu) * b**2 + a**2) / (b**2 - a**2)
     outer = (1 + nu) * (1 - 2 * nu) / (1 + (1 - 2 * nu) * (c / b) ** 2) * (c**2 - b**2) / b
+    if not fixed:
+        outer = b * (1 + nu) * ((1 - 2 * nu) * b**2 + c**2) / (c**2 - b**2)
     return interference / (inner + outer)

@@ -40,7 +40,6 @@ class PunchedBlock:
         x0: float = 0.0,
         down: float = 0.02,
         swapped: bool = False,
-        unit: float = 1.0,
         audit: str = "refuse",
         **options: Any,
     ):
@@ -59,9 +58,9 @@ class PunchedBlock:
             parts.append(grid(foot, [foot[0] + width, width], [punch, punch]))
             x = parts[-1][0]
             x[:, 0] = x0 + (x[:, 0] - x0) * (1 + lean * x[:, 1] / width)
-        domain = create(*((unit * x, cells) for x, cells in parts))
+        domain = create(*parts)
         self.u = u = displacement(domain)
-        V, tags = u.function_space, _tagged(domain, unit * width, around)
+        V, tags = u.function_space, _tagged(domain, width, around)
 
         def fixed(tag: int, value: np.ndarray) -> fem.DirichletBC:
             return fem.dirichletbc(
@@ -70,14 +69,14 @@ class PunchedBlock:
 
         bcs, top = [fixed(BOTTOM, np.zeros(gdim))], cx.Surface(tags, TOP)
         if ball is None:
-            bcs.append(fixed(HEAD, -unit * down * np.eye(gdim)[-1]))
+            bcs.append(fixed(HEAD, -down * np.eye(gdim)[-1]))
             foot_of_punch = cx.Surface(tags, FOOT)
             sides = (foot_of_punch, top) if swapped else (top, foot_of_punch)
             self.contact = cx.Contact(*sides, **options)
         else:
-            self.centre = fem.Constant(domain, np.full(gdim, unit * x0))
-            self.centre.value[-1] = unit * (ball - down)
-            self.contact = cx.Contact(top, cx.Sphere(self.centre, unit * ball), **options)
+            self.centre = fem.Constant(domain, np.full(gdim, x0))
+            self.centre.value[-1] = ball - down
+            self.contact = cx.Contact(top, cx.Sphere(self.centre, ball), **options)
         self.problem = make_problem(elasticity(u, 1.0, 0.3), u, [self.contact], bcs, audit=audit)
 
 

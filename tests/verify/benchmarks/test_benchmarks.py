@@ -34,6 +34,7 @@ import tables
 from matplotlib import image
 from peers import table
 
+from scenes import fits
 from story import METHODS
 
 ALONE = runner.alone
@@ -269,7 +270,8 @@ def test_edges():
     assert all(0 < row["ratio"] < 1 for row in rows[4:])
 
 
-def test_fits():
+def test_fits(monkeypatch):
+    monkeypatch.setattr(fits, "TIMES", (0.5, 1.0, 1.5, 3.0))
     rows = bench_fits.main(["pin"], sizes=[(40, 24)])
     assert len(rows) == len(bench_fits.OPTIONS) * len(METHODS)
     for row in rows:

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """The face of a dam: balance, laws, restart, demo, E-B model; and a stiff sheet on soft ground."""
 
+import shutil
+
 import numpy as np
 import pytest
 from matplotlib import image
@@ -27,27 +29,52 @@ MANY = DamFace(rows=24, layers=1, rockfill_cells=3, rockfill_rows=16)
 BY_BODIES = (("condensed_pc_type", "bodies"),)
 
 
-def solved(creep=False):
-    dam = Dam(DamSetting(MODEL))
-    found = []
-    run(dam, STAGES, creep=creep, each=lambda *_: found.append(laws(dam)), progress=False)
-    return dam, found
+class Solved:
+    """A run through all stages.
 
+    Attributes:
+        dam: The dam at the end.
+        laws: What holds in each stage.
+        u: Displacement at the end of each stage, by its t.
+        before_last: Checkpoint before the last stage.
+    """
 
-def test_laws_hold_in_all_stages():
-    """Each slab balances, supports carry all loads, no joint overlaps, friction is Coulomb's."""
-    _, found = solved(creep=True)
-    assert len(found) == 1 + STAGES + 1
-    for stage in found:
-        assert stage.balance < 1e-7
-        assert stage.reactions < 1e-8
-        assert stage.penetration < 1e-9
-        assert stage.coulomb < 1e-8
+    def __init__(self, setting, stages, folder):
+        self.dam, self.laws, self.u = Dam(setting), [], {}
+        self.before_last = folder / "before_last.state"
+        file = folder / "dam.state"
+
+        def each(dam, step):
+            self.laws.append(laws(dam))
+            self.u[step.t] = dam.u.x.array.copy()
+            if step.t == 2 + stages:
+                # It is written when a stage has ended
+                shutil.copy(file, self.before_last)
+
+        run(self.dam, stages, each=each, progress=False, checkpoint=file)
+
+    def check_laws(self, stages):
+        """Slabs balance, supports carry all loads, no joint overlaps, friction is Coulomb's."""
+        assert len(self.laws) == 1 + stages + 1
+        for stage in self.laws:
+            assert stage.balance < 1e-7
+            assert stage.reactions < 1e-8
+            assert stage.penetration < 1e-9
+            assert stage.coulomb < 1e-8
 
 
 @pytest.fixture(scope="module")
-def dam():
-    return solved()[0]
+def solved(tmp_path_factory):
+    return Solved(DamSetting(MODEL), STAGES, tmp_path_factory.mktemp("dam"))
+
+
+def test_laws_hold_in_all_stages(solved):
+    solved.check_laws(STAGES)
+
+
+@pytest.fixture
+def dam(solved):
+    return solved.dam
 
 
 def test_slabs_of_the_river_bed_turn_towards_one_another(dam):
@@ -56,59 +83,51 @@ def test_slabs_of_the_river_bed_turn_towards_one_another(dam):
     assert found[1].rotation > 0
 
 
-def test_a_restart_goes_on(dam, tmp_path):
+def test_a_restart_goes_on(solved):
     """The same displacements from a checkpoint."""
-    file = tmp_path / "dam.state"
-
-    class StopError(Exception):
-        pass
-
-    def stop(_, step):
-        if step.t == 2:
-            raise StopError
-
-    first = Dam(DamSetting(MODEL))
-    with pytest.raises(StopError):
-        run(first, STAGES, creep=False, each=stop, progress=False, checkpoint=file)
-    second = Dam(DamSetting(MODEL))
-    run(second, STAGES, creep=False, progress=False, restart=file)
-    difference = second.u.x.array - dam.u.x.array
-    assert np.abs(difference).max() <= 1e-9 * np.abs(dam.u.x.array).max()
+    second, u = Dam(DamSetting(MODEL)), solved.dam.u.x.array
+    run(second, STAGES, progress=False, restart=solved.before_last)
+    assert np.abs(second.u.x.array - u).max() <= 1e-9 * np.abs(u).max()
 
 
 def test_the_solver_is_chosen_by_itself(dam):
     assert "multigrid is slow here" in dam.problem.report.by_bodies
 
 
-def count_factorisations(dam):
-    """Factorisations of a run that must give a dam's displacements."""
+class StopError(Exception):
+    """Enough stages."""
+
+
+def count_factorisations(solved):
+    """Factorisations of the first two stages, which must give the displacements of a run."""
     other, counts = Dam(DamSetting(MODEL)), []
-    run(
-        other,
-        STAGES,
-        creep=False,
-        each=lambda d, _: counts.append(d.problem.report.factorisations),
-        progress=False,
-    )
-    difference = other.u.x.array - dam.u.x.array
-    assert np.abs(difference).max() <= 1e-8 * np.abs(dam.u.x.array).max()
+
+    def each(dam, step):
+        counts.append(dam.problem.report.factorisations)
+        if step.t == 2:
+            raise StopError
+
+    with pytest.raises(StopError):
+        run(other, STAGES, each=each, progress=False)
+    u = solved.u[2.0]
+    assert np.abs(other.u.x.array - u).max() <= 1e-8 * np.abs(u).max()
     return sum(counts)
 
 
-def test_factors_serve_the_longer_the_larger_the_change_that_they_may_have(dam):
+def test_factors_serve_the_longer_the_larger_the_change_that_they_may_have(solved):
     """Were they never dear."""
     with tuned(renewal_cost=10**6):
-        many = count_factorisations(dam)
+        many = count_factorisations(solved)
     with tuned(renewal_cost=10**6, max_change=15.0):
-        assert count_factorisations(dam) < many
+        assert count_factorisations(solved) < many
 
 
-def test_old_factors_that_cost_more_than_new_ones_are_renewed(dam):
+def test_old_factors_that_cost_more_than_new_ones_are_renewed(solved):
     """However large the change for which they are to serve."""
     with tuned(max_change=1e9):
-        few = count_factorisations(dam)
+        few = count_factorisations(solved)
     with tuned(max_change=1e9, renewal_cost=1):
-        assert count_factorisations(dam) > few
+        assert count_factorisations(solved) > few
 
 
 def count_iterations():
@@ -193,33 +212,17 @@ def test_volume_follows_the_bulk_modulus():
     assert young / (3 * (1 - 2 * nu)) == pytest.approx(bulk, rel=1e-12)
 
 
-def solved_with_rock(**options):
-    dam = Dam(DamSetting(MODEL_OF_ROCK, ROCK))
-    found = []
-    run(
-        dam,
-        STAGES_OF_ROCK,
-        each=lambda *_: found.append(laws(dam)),
-        progress=False,
-        **options,
-    )
-    return dam, found
-
-
 @pytest.fixture(scope="module")
-def dam_of_rock():
-    return solved_with_rock()
+def of_rock(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("rock")
+    return Solved(DamSetting(MODEL_OF_ROCK, ROCK), STAGES_OF_ROCK, folder)
 
 
-def test_laws_hold_in_all_stages_of_rock(dam_of_rock):
-    for stage in dam_of_rock[1]:
-        assert stage.balance < 1e-7
-        assert stage.reactions < 1e-8
-        assert stage.penetration < 1e-9
-        assert stage.coulomb < 1e-8
+def test_laws_hold_in_all_stages_of_rock(of_rock):
+    of_rock.check_laws(STAGES_OF_ROCK)
 
 
-def test_the_own_weight_makes_deep_rockfill_stiff(dam_of_rock):
+def test_the_own_weight_makes_deep_rockfill_stiff(of_rock):
     """By a power of the depth; what the water presses on has yielded since."""
     new = Dam(DamSetting(MODEL_OF_ROCK, ROCK))
     rock = new.is_rockfill.x.array > 0
@@ -230,27 +233,15 @@ def test_the_own_weight_makes_deep_rockfill_stiff(dam_of_rock):
     factor = young[deep] / least[deep] ** ROCK.n
     assert np.ptp(factor) < 0.2 * factor.max()
     assert young.max() > 2 * young.min()
-    assert dam_of_rock[0].young.x.array[rock].min() < 0.8 * young.min()
+    assert of_rock.dam.young.x.array[rock].min() < 0.8 * young.min()
 
 
-def test_a_restart_of_rock_goes_on(dam_of_rock, tmp_path):
+def test_a_restart_of_rock_goes_on(of_rock):
     """The same displacements, stresses and moduli from a checkpoint of the full reservoir."""
-
-    class StopError(Exception):
-        pass
-
-    def stop(_, step):
-        if step.t == 2:
-            raise StopError
-
-    file = tmp_path / "dam.state"
-    first = Dam(DamSetting(MODEL_OF_ROCK, ROCK))
-    with pytest.raises(StopError):
-        run(first, STAGES_OF_ROCK, each=stop, progress=False, checkpoint=file)
-    second = Dam(DamSetting(MODEL_OF_ROCK, ROCK))
-    run(second, STAGES_OF_ROCK, progress=False, restart=file)
-    pairs = [(second.u, dam_of_rock[0].u)]
-    pairs += zip(second.increments.history, dam_of_rock[0].increments.history, strict=True)
+    second, dam = Dam(DamSetting(MODEL_OF_ROCK, ROCK)), of_rock.dam
+    run(second, STAGES_OF_ROCK, progress=False, restart=of_rock.before_last)
+    pairs = [(second.u, dam.u)]
+    pairs += zip(second.increments.history, dam.increments.history, strict=True)
     for one, other in pairs:
         most = np.abs(other.x.array).max()
         assert np.abs(one.x.array - other.x.array).max() <= 1e-7 * most

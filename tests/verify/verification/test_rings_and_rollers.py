@@ -104,10 +104,12 @@ def iron(h, dim, friction, method, slave):
     return run, along, down
 
 
-@pytest.mark.parametrize("slave", ["die", "block"])
-@pytest.mark.parametrize("friction", FRICTIONS)
+@pytest.mark.parametrize(("friction", "slave"), zip(FRICTIONS, ("die", "block"), strict=True))
 def test_plane(friction, slave):
-    """Over 13 facets; the methods' vertical forces agree, and friction is mu times them."""
+    """Over 13 facets; the methods' vertical forces agree, and friction is mu times them.
+
+    The die is the slave with friction in space.
+    """
     downs = []
     for method in METHODS:
         _, along, down = iron(0.1, 2, friction, method, slave)
