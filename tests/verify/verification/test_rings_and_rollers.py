@@ -104,7 +104,7 @@ def iron(h, dim, friction, method, slave):
     return run, along, down
 
 
-@pytest.mark.parametrize(("friction", "slave"), zip(FRICTIONS, ("die", "block"), strict=True))
+@pytest.mark.parametrize(("friction", "slave"), [*zip(FRICTIONS, ("die", "block"), strict=True)])
 def test_plane(friction, slave):
     """Over 13 facets; the methods' vertical forces agree, and friction is mu times them.
 
