@@ -343,6 +343,20 @@ public:
     _jacobian->assemble(A, loop().free_bodies().springs());
   }
 
+  /// @brief Give a KSP of one's own the Jacobian of the iterate that has
+  /// settled last.
+  /// @param[in] ksp The solver.
+  /// @throws std::logic_error if none has settled since the last step was
+  /// taken.
+  void set_up(::KSP ksp)
+  {
+    _problem->enter("set_up", {{"condensed", 0}});
+    if (not _A)
+      _A = std::make_unique<petsc::OwnMat>(create_matrix());
+    _jacobian->assemble(_A->get(), loop().free_bodies().springs());
+    petsc::check(KSPSetOperators(ksp, _A->get(), _A->get()), "KSPSetOperators");
+  }
+
   /// @brief Part of a step that may be taken.
   ///
   /// No cell may turn inside out. Zero means that the iterate stays, and that
@@ -488,6 +502,7 @@ private:
   std::unique_ptr<contactx::problem::Problem> _problem;
   std::unique_ptr<Jacobian> _jacobian;
   std::unique_ptr<petsc::OwnVec> _x;
+  std::unique_ptr<petsc::OwnMat> _A; // that of `set_up`
 };
 
 /// @brief Solves with the Jacobian of an assembler, a saddle point, by a KSP of
@@ -499,16 +514,12 @@ public:
   /// @param[in] assembler The system; it must outlive this.
   /// @param[in] ksp The solver, as its options set it; it must outlive this.
   KSPSolver(Assembler& assembler, ::KSP ksp)
-      : _assembler(&assembler), _ksp(ksp), _A(assembler.create_matrix()),
-        _b(assembler.create_vector()), _x(assembler.create_vector())
+      : _assembler(&assembler), _ksp(ksp), _b(assembler.create_vector()),
+        _x(assembler.create_vector())
   {
   }
 
-  void update() override
-  {
-    _assembler->jacobian(_assembler->x(), _A.get());
-    petsc::check(KSPSetOperators(_ksp, _A.get(), _A.get()), "KSPSetOperators");
-  }
+  void update() override { _assembler->set_up(_ksp); }
 
   void solve(std::span<const double> b, std::span<double> x) override
   {
@@ -527,7 +538,6 @@ public:
 private:
   Assembler* _assembler;
   ::KSP _ksp;
-  petsc::OwnMat _A;
   petsc::OwnVec _b, _x;
 };
 } // namespace contactx_dolfinx

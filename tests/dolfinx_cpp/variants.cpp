@@ -121,7 +121,6 @@ void tolerances(const Scene& scene, const char* name, double size,
       cx::Surface(scene.tags, {11}), cx::Surface(scene.tags, {21}), options);
   cx::Assembler assembler(F, J, u, support(scene).bcs, {contact});
   cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
-  cx::petsc::OwnMat A(assembler.create_matrix());
   KSPReset(scene.ksp);
   for (int step = 0; step < 2; ++step)
   {
@@ -130,8 +129,7 @@ void tolerances(const Scene& scene, const char* name, double size,
     while (not(it = assembler.settle()).converged)
     {
       assembler.residual(assembler.x(), b.get());
-      assembler.jacobian(assembler.x(), A.get());
-      KSPSetOperators(scene.ksp, A.get(), A.get());
+      assembler.set_up(scene.ksp);
       KSPSolve(scene.ksp, b.get(), dx.get());
       VecScale(dx.get(), -1);
       assembler.update(dx.get(), assembler.limit(dx.get()));
@@ -200,8 +198,10 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
   auto contact = std::make_shared<cx::Contact>(slave, to, options);
   cx::Assembler assembler(F, J, u, bcs, {contact});
   cx::petsc::OwnVec b(assembler.create_vector()), dx(assembler.create_vector());
-  cx::petsc::OwnMat A(assembler.create_matrix());
   cx::Condensed condensed(assembler, "condensed_");
+  cx::petsc::OwnKSP of_condensed;
+  KSPCreate(MPI_COMM_WORLD, of_condensed.put());
+  KSPSetType(of_condensed.get(), KSPPREONLY);
   std::optional<cx::Forms> forms;
   if (scene.has_forms)
     forms.emplace(assembler, J);
@@ -212,7 +212,10 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     if (not forms)
       assembler.residual(assembler.x(), b.get());
     if (scene.condensed)
-      condensed.solve(b.get(), dx.get());
+    {
+      condensed.set_up(of_condensed.get());
+      KSPSolve(of_condensed.get(), b.get(), dx.get());
+    }
     else if (forms)
     {
       KSPSetOperators(ksp, of_forms, of_forms);
@@ -220,8 +223,7 @@ void solve(const Scene& scene, const char* name, const cx::Contact::Master& to,
     }
     else
     {
-      assembler.jacobian(assembler.x(), A.get());
-      KSPSetOperators(ksp, A.get(), A.get());
+      assembler.set_up(ksp);
       KSPSolve(ksp, b.get(), dx.get());
     }
     VecScale(dx.get(), -1);
