@@ -37,28 +37,20 @@ public:
       _adapter.attr("reduce")(lend(values), name_of(how));
   }
 
-  std::vector<double> gather(std::span<const double> mine) override
+  std::vector<std::byte> gather(std::span<const std::byte> mine) override
   {
-    const std::vector<double> values(mine.begin(), mine.end());
-    if (_size == 1)
-      return values;
-    return copy(_adapter.attr("gather")(array(values)).cast<Array<double>>());
+    return received(_adapter.attr("gather")(sent(mine)));
   }
 
   Messages exchange(const Messages& outgoing) override
   {
     py::dict out;
     for (const auto& [rank, bytes] : outgoing)
-      out[py::int_(rank)] = py::bytes(
-          reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      out[py::int_(rank)] = sent(bytes);
     const py::dict in = _adapter.attr("exchange")(out);
     Messages incoming;
     for (const auto& [rank, bytes] : in)
-    {
-      const std::string_view data = bytes.cast<std::string_view>();
-      const auto* first = reinterpret_cast<const std::byte*>(data.data());
-      incoming[rank.cast<int>()].assign(first, first + data.size());
-    }
+      incoming[rank.cast<int>()] = received(bytes);
     return incoming;
   }
 
@@ -71,6 +63,17 @@ public:
   }
 
 private:
+  static py::bytes sent(std::span<const std::byte> bytes)
+  {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+
+  static std::vector<std::byte> received(const py::handle& bytes)
+  {
+    const auto data = std::as_bytes(std::span(bytes.cast<std::string_view>()));
+    return {data.begin(), data.end()};
+  }
+
   static const char* name_of(Reduction how)
   {
     return how == Reduction::sum     ? "sum"

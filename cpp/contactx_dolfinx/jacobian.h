@@ -24,11 +24,8 @@ public:
            std::shared_ptr<Bulk> bulk)
       : _system(std::move(system)), _bulk(std::move(bulk))
   {
-    const std::array mine{static_cast<double>(_system->size())};
-    contactx::mesh::Ranks& ranks = _system->halo()->ranks();
-    const std::vector<double> sizes = ranks.gather(mine);
-    for (int r = 0; r < ranks.rank(); ++r)
-      _start += static_cast<std::int64_t>(sizes[r]);
+    _start = contactx::mesh::total_before(
+        _system->halo()->ranks(), static_cast<std::int64_t>(_system->size()));
   }
 
   /// @brief Assemble the Jacobian at the state of now.

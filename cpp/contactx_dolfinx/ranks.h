@@ -34,13 +34,29 @@ public:
     reduce(values.data(), values.size(), MPI_INT64_T, how);
   }
 
-  std::vector<double> gather(std::span<const double> mine) override
+  /// @copydoc contactx::mesh::Ranks::gather
+  /// @throws std::length_error if MPI cannot count the bytes of all.
+  std::vector<std::byte> gather(std::span<const std::byte> mine) override
   {
-    std::vector<double> every(mine.size() * size());
-    const int count = static_cast<int>(mine.size());
-    MPI_Allgather(mine.data(), count, MPI_DOUBLE, every.data(), count,
-                  MPI_DOUBLE, _comm.comm());
-    return every;
+    const auto own = static_cast<std::int64_t>(mine.size());
+    std::vector<std::int64_t> sizes(size());
+    MPI_Allgather(&own, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T,
+                  _comm.comm());
+    std::vector<int> counts, begins;
+    std::int64_t total = 0;
+    for (const std::int64_t count : sizes)
+    {
+      begins.push_back(static_cast<int>(total));
+      counts.push_back(static_cast<int>(count));
+      total += count;
+      // The same on all ranks
+      if (total > INT_MAX)
+        throw std::length_error("what all ranks have is too long");
+    }
+    std::vector<std::byte> all(total);
+    MPI_Allgatherv(mine.data(), counts[rank()], MPI_BYTE, all.data(),
+                   counts.data(), begins.data(), MPI_BYTE, _comm.comm());
+    return all;
   }
 
   /// @brief Sparse exchange by nonblocking consensus (Hoefler, Siebert,

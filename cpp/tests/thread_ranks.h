@@ -77,6 +77,14 @@ public:
     reduce_all(values, how);
   }
 
+  std::vector<std::byte> gather(std::span<const std::byte> mine) override
+  {
+    std::vector<std::byte> all;
+    show(mine, [&](int, std::span<const std::byte> theirs)
+         { all.insert(all.end(), theirs.begin(), theirs.end()); });
+    return all;
+  }
+
   mesh::Messages exchange(const mesh::Messages& outgoing) override
   {
     ++num_exchanges;

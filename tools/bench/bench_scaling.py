@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Several ranks: how much faster two of them are, and what a rank sends on up to 16.
+"""Several ranks: how much faster two of them are, and what a rank sends on up to 64.
 
 Strong scaling: the common Hertz problem, wall seconds from the read mesh to the converged solution
 on one and two ranks. Weak scaling: a slab dragged along a base, both as long as there are ranks;
@@ -25,7 +25,7 @@ import runner
 import tables
 
 SIZES = (0.01, 0.005, 0.0035)
-RANKS = (1, 2, 4, 8, 16)
+RANKS = (1, 2, 4, 8, 16, 32, 64)
 RUNS = 3
 METHODS = ("node-to-surface", "surface-to-surface")
 

@@ -111,7 +111,16 @@ class Collectives:
         count: Number of calls so far.
     """
 
-    _NAMES = ("allreduce", "Allreduce", "allgather", "Allgather", "bcast", "gather", "Ibarrier")
+    _NAMES = (
+        "allreduce",
+        "Allreduce",
+        "allgather",
+        "Allgather",
+        "Allgatherv",
+        "bcast",
+        "gather",
+        "Ibarrier",
+    )
 
     def __init__(self) -> None:
         """Nothing is counted yet."""
@@ -152,11 +161,11 @@ class Sent:
         self._shared: tuple[Any, int, int] = None, 0, 0
         for name, count in (
             ("exchange", self._exchanged),
-            ("gather", self._gathered),
             ("forward", self._forward),
             ("reverse", self._reverse),
         ):
             setattr(host, name, self._counting(getattr(host, name), count))
+        host.gather = self._gathering(host.gather)
 
     def _add(self, purpose: str, messages: int, size: int) -> None:
         self.counts["messages", purpose] += messages
@@ -175,10 +184,20 @@ class Sent:
             if rank != self._host.rank:
                 self._add("exchange", 1, len(item))
 
-    def _gathered(self, values: Any) -> None:
-        # A box has two corners, an axis and a sine; else it is the audit that asks
-        is_box = len(values) == 3 * self._gdim + 1
-        self._add("boxes" if is_box else "audit", 1, values.nbytes)
+    def _gathering(self, gather: Any) -> Any:
+        def counted(mine: bytes) -> bytes:
+            every: bytes = gather(mine)
+            # A box has a rank, two corners, an axis and a sine; else it is the audit that asks
+            is_box = len(mine) == 8 * (3 * self._gdim + 2)
+            # What others have, and before how much it is, passes through each rank, in larger and
+            # larger packages
+            messages = 2 * math.ceil(math.log2(self._host.size))
+            size = 8 * (self._host.size - 1) + len(every) - len(mine)
+            self.counts["calls", "boxes"] += is_box
+            self._add("boxes" if is_box else "audit", messages, size)
+            return every
+
+        return counted
 
     def _forward(self, values: Any, width: int) -> None:
         index_map = self._host.full_map
@@ -219,7 +238,7 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
         solver = _petsc_traffic() - before
     whole = all_sent()
     # Nothing but a search asks for boxes, once, and sends by exchange
-    searches = max(1, whole["messages", "boxes"])
+    searches = max(1, whole["calls", "boxes"])
     search = Counter({at: n for at, n in whole.items() if at[1] in ("boxes", "exchange")})
     found = {
         "dofs": slab.problem.u.function_space.dofmap.index_map.size_global * dim,
@@ -234,21 +253,17 @@ def weak(dim: int, method: str, partition: str) -> dict[str, Any]:
         "halo": comm.allreduce(_halo_size(slab.contact), MPI.MAX),
     }
     for kind in ("messages", "bytes", "collectives"):
-        of_search = _sum(search, kind, comm.size) / searches
-        rest = _sum(whole - search, kind, comm.size) / max(1, iterations)
+        of_search = _sum(search, kind) / searches
+        rest = _sum(whole - search, kind) / max(1, iterations)
         found[f"{kind} an iteration"] = comm.allreduce(rest, MPI.MAX)
         if kind != "collectives":
             found[f"{kind} a search"] = comm.allreduce(of_search, MPI.MAX)
-    boxes = search["bytes", "boxes"] * (comm.size - 1) / searches
-    found["of boxes"] = comm.allreduce(boxes, MPI.MAX)
+    found["of boxes"] = comm.allreduce(search["bytes", "boxes"] / searches, MPI.MAX)
     return found
 
 
-def _sum(counts: Counter[tuple[str, str]], kind: str, ranks: int) -> float:
-    # What all ranks gather passes through each of them, in larger and larger packages
-    passed = {"bytes": ranks - 1, "messages": math.ceil(math.log2(ranks))}.get(kind, 1)
-    each = ((n, passed if p == "boxes" else 1) for (what, p), n in counts.items() if what == kind)
-    return float(sum(n * factor for n, factor in each))
+def _sum(counts: Counter[tuple[str, str]], kind: str) -> float:
+    return float(sum(n for (what, _), n in counts.items() if what == kind))
 
 
 def _petsc_traffic() -> Counter[str]:

@@ -146,7 +146,7 @@ contactx::audit::edge_force(mesh::Halo& halo, const contact::Contact& contact,
       worst[6] = its.size;
       std::copy_n(&now[std::size_t(its.node) * g], g, &worst[7]);
     }
-  const std::vector<double> all = halo.ranks().gather(worst);
+  const auto all = mesh::gathered<double>(halo.ranks(), worst);
   worst.fill(0); // Of as bad ones all ranks take that of the same rank
   for (auto row = all.begin(); row != all.end(); row += worst.size())
   {

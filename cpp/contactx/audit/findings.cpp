@@ -48,17 +48,17 @@ std::optional<Depth> contactx::audit::deepest(mesh::Ranks& ranks,
 {
   if (ranks.size() == 1)
     return mine;
-  std::array<double, 8> row{};
+  std::vector<double> row;
   if (mine)
   {
-    row = {1, mine->excess, mine->depth, mine->size, double(mine->is_held)};
-    std::ranges::copy(mine->at, row.begin() + 5);
+    row = {mine->excess, mine->depth, mine->size, double(mine->is_held)};
+    row.insert(row.end(), mine->at.begin(), mine->at.end());
   }
-  const std::vector<double> all = ranks.gather(row);
+  const auto all = mesh::gathered<double>(ranks, row);
   std::optional<Depth> found;
-  for (auto r = all.begin(); r != all.end(); r += row.size())
-    if (r[0] > 0 and (not found or r[1] > found->excess))
-      found = Depth{r[1], r[2], r[3], r[4] > 0, {r + 5, r + 5 + gdim}};
+  for (auto r = all.begin(); r != all.end(); r += 4 + gdim)
+    if (not found or r[0] > found->excess)
+      found = Depth{r[0], r[1], r[2], r[3] > 0, {r + 4, r + 4 + gdim}};
   return found;
 }
 
@@ -68,17 +68,17 @@ contactx::audit::sharpest(mesh::Ranks& ranks,
 {
   if (ranks.size() == 1)
     return mine;
-  std::array<double, 6> row{};
+  std::vector<double> row;
   if (mine)
   {
-    row = {1, mine->radius, mine->size};
-    std::ranges::copy(mine->at, row.begin() + 3);
+    row = {mine->radius, mine->size};
+    row.insert(row.end(), mine->at.begin(), mine->at.end());
   }
-  const std::vector<double> all = ranks.gather(row);
+  const auto all = mesh::gathered<double>(ranks, row);
   std::optional<Roundness> found;
-  for (auto r = all.begin(); r != all.end(); r += row.size())
-    if (Roundness its{r[1], r[2], {r + 3, r + 3 + gdim}};
-        r[0] > 0 and (not found or its.facets() < found->facets()))
+  for (auto r = all.begin(); r != all.end(); r += 2 + gdim)
+    if (Roundness its{r[0], r[1], {r + 2, r + 2 + gdim}};
+        not found or its.facets() < found->facets())
       found = std::move(its);
   return found;
 }

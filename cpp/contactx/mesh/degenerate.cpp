@@ -85,7 +85,7 @@ void contactx::mesh::check_cells(Ranks& ranks, CellType cell,
   count = mesh::total(ranks, count);
   if (count == 0)
     return;
-  const std::vector<double> each = ranks.gather(first);
+  const auto each = mesh::gathered<double>(ranks, first);
   std::size_t at = 0;
   for (std::size_t r = 0; r < each.size(); r += first.size())
     if (each[r] < each[at])

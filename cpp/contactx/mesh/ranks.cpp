@@ -10,17 +10,6 @@
 
 using namespace contactx::mesh;
 
-std::vector<double> Ranks::gather(std::span<const double> mine)
-{
-  // A sum with zeros is exact
-  std::vector<double> every(mine.size() * size(), 0);
-  std::ranges::copy(
-      mine, every.begin() + static_cast<std::ptrdiff_t>(mine.size()) * rank());
-  if (size() > 1)
-    reduce(every, Reduction::sum);
-  return every;
-}
-
 void Ranks::agree(const std::function<void()>& work)
 {
   if (size() == 1)

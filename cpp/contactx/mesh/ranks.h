@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -50,10 +51,9 @@ public:
   /// @copydoc reduce
   virtual void reduce(std::span<std::int64_t> values, Reduction how) = 0;
 
-  /// @brief Numbers of all ranks, one rank's after the other's.
-  /// @param[in] mine Numbers of this rank, as many on each.
-  /// @return Those of all ranks (shape=(size, number of them)).
-  virtual std::vector<double> gather(std::span<const double> mine);
+  /// @brief Bytes of all ranks, one rank's after the other's.
+  /// @param[in] mine Bytes of this rank, any number of them.
+  virtual std::vector<std::byte> gather(std::span<const std::byte> mine) = 0;
 
   /// @brief Send messages and receive those of others, who do not know of them
   /// yet.
@@ -78,6 +78,10 @@ public:
   int size() const override { return 1; }
   void reduce(std::span<double>, Reduction) override {}
   void reduce(std::span<std::int64_t>, Reduction) override {}
+  std::vector<std::byte> gather(std::span<const std::byte> mine) override
+  {
+    return {mine.begin(), mine.end()};
+  }
   Messages exchange(const Messages& outgoing) override { return outgoing; }
 };
 
@@ -161,21 +165,20 @@ std::vector<T> unpack(std::span<const std::byte>& bytes, std::size_t count)
 template <class T>
 std::vector<T> gathered(Ranks& ranks, std::span<const T> values)
 {
-  std::vector<T> all(values.begin(), values.end());
-  if (ranks.size() == 1)
-    return all;
-  Messages out;
-  // Ranks without values send nothing
-  for (int r = 0; r < ranks.size() and not values.empty(); ++r)
-    pack(out[r], values);
-  all.clear();
-  for (const auto& [r, bytes] : ranks.exchange(out))
-  {
-    std::span<const std::byte> left = bytes;
-    const auto part = unpack<T>(left, bytes.size() / sizeof(T));
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
+  static_assert(std::is_trivially_copyable_v<T>);
+  const std::vector<std::byte> all = ranks.gather(std::as_bytes(values));
+  std::span<const std::byte> left = all;
+  return unpack<T>(left, all.size() / sizeof(T));
+}
+
+/// @brief Sum of a count over the ranks before this one.
+/// @param[in] ranks The ranks, all of which take part.
+/// @param[in] count Number of this rank.
+inline std::int64_t total_before(Ranks& ranks, std::int64_t count)
+{
+  const auto counts = gathered(ranks, std::span<const std::int64_t>(&count, 1));
+  return std::accumulate(counts.begin(), counts.begin() + ranks.rank(),
+                         std::int64_t(0));
 }
 
 /// @brief Nodes of this rank: those that it owns, then those of other ranks

@@ -129,7 +129,7 @@ void contactx::mesh::check_straight(Ranks& ranks, const std::string& name,
   if (count == 0)
     return;
   most = mesh::largest(ranks, most);
-  const std::vector<double> all = ranks.gather(first);
+  const auto all = mesh::gathered<double>(ranks, first);
   for (std::size_t r = 0; r < all.size(); r += 3)
     first = std::min(first, {all[r], all[r + 1], all[r + 2]});
   const Vector<3> size = mesh::extent(ranks, geometry.x, 3);

@@ -126,32 +126,31 @@ DeformedCells contactx::problem::deformed_cells(mesh::Halo& halo,
   const mesh::DeformedCells mine
       = mesh::deformed_cells(cells, width, X, halo.now()->u, g);
   // Smallest det F and midpoint of each rank that has cells
-  std::vector<double> row(g + 2);
-  row[0] = mine.cell >= 0;
-  row[1] = mine.smallest;
+  std::vector<double> row;
   if (mine.cell >= 0)
+  {
+    row.assign(g + 1, 0);
+    row[0] = mine.smallest;
     for (const std::int32_t node :
          cells.subspan(std::size_t(mine.cell) * width, width))
       for (int k = 0; k < g; ++k)
-        row[2 + k] += X[std::size_t(node) * g + k] / width;
-  const std::vector<double> all = halo.ranks().gather(row);
+        row[1 + k] += X[std::size_t(node) * g + k] / width;
+  }
+  const auto all = mesh::gathered<double>(halo.ranks(), row);
   DeformedCells found;
   found.inverted = mesh::total(halo.ranks(), mine.inverted);
   std::span<const double> best;
-  for (std::size_t at = 0; at < all.size(); at += row.size())
+  for (std::size_t at = 0; at < all.size(); at += g + 1)
   {
-    const auto theirs = std::span(all).subspan(at, row.size());
+    const auto theirs = std::span(all).subspan(at, g + 1);
     // Of equal ones the first by its place, on any number of ranks
-    if (theirs[0] != 0
-        and (best.empty()
-             or std::ranges::lexicographical_compare(theirs.subspan(1),
-                                                     best.subspan(1))))
+    if (best.empty() or std::ranges::lexicographical_compare(theirs, best))
       best = theirs;
   }
   if (not best.empty())
   {
-    found.smallest = best[1];
-    found.at.assign(best.begin() + 2, best.end());
+    found.smallest = best[0];
+    found.at.assign(best.begin() + 1, best.end());
   }
   return found;
 }

@@ -89,7 +89,7 @@ void Problem::enter(std::string_view call,
   std::array<double, 1 + max_numbers> mine{static_cast<double>(which)};
   for (std::size_t k = 0; k < numbers.size(); ++k)
     mine.at(1 + k) = numbers[k].second;
-  const std::vector<double> all = _halo->ranks().gather(mine);
+  const auto all = mesh::gathered<double>(_halo->ranks(), mine);
   const auto of = [&](std::size_t rank, std::size_t k)
   { return all[rank * mine.size() + k]; };
   const std::size_t ranks = all.size() / mine.size();

@@ -345,22 +345,19 @@ void DistributedSurface::add_facets_within(std::span<const double> x,
   const int gdim = _halo->gdim();
   check::positions(x.size(), _finder.surface().num_nodes(), gdim);
   mesh::Ranks& ranks = _halo->ranks();
-  const std::vector<std::int8_t> near
-      = RankBoxes(ranks, own(), x, gdim).from_facets(x, slave, reach, margin);
+  const auto near
+      = RankBoxes(ranks, own(), x, gdim).from_facets(x, slave, reach);
   // Sizes of the facets, then their corners
   mesh::Messages questions;
-  for (int rank = 0; rank < ranks.size(); ++rank)
+  for (const auto& [rank, facets] : near)
   {
-    std::vector<std::int32_t> which, sizes{0}, nodes;
-    for (std::int32_t f = 0; f < slave.size(); ++f)
-      if (near[static_cast<std::size_t>(f) * ranks.size() + rank])
-      {
-        sizes.push_back(static_cast<std::int32_t>(slave[f].size()));
-        nodes.insert(nodes.end(), slave[f].begin(), slave[f].end());
-      }
-    if (nodes.empty())
-      continue;
-    sizes.front() = static_cast<std::int32_t>(sizes.size()) - 1;
+    std::vector<std::int32_t> sizes{static_cast<std::int32_t>(facets.size())},
+        nodes;
+    for (const std::int32_t f : facets)
+    {
+      sizes.push_back(static_cast<std::int32_t>(slave[f].size()));
+      nodes.insert(nodes.end(), slave[f].begin(), slave[f].end());
+    }
     mesh::pack<std::int32_t>(questions[rank], sizes);
     mesh::pack<double>(questions[rank], rows(x, nodes, gdim));
   }

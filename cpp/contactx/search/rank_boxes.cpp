@@ -67,13 +67,15 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
 
 RankBoxes::RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
                      std::span<const double> x, int gdim)
-    : _gdim(gdim), _num_ranks(ranks.size())
+    : _gdim(gdim)
 {
   const std::size_t g = gdim;
-  std::vector<double> box(3 * g + 1, 0);
-  const std::span mine(box);
-  std::ranges::fill(mine.first(g), infinity);
-  std::ranges::fill(mine.subspan(g, g), -infinity);
+  std::vector<double> box(3 * g + 2, 0);
+  box.front() = ranks.rank();
+  const std::span low = std::span(box).subspan(1, g),
+                  high = std::span(box).subspan(1 + g, g);
+  std::ranges::fill(low, infinity);
+  std::ranges::fill(high, -infinity);
   for (const std::int32_t node : own.nodes)
   {
     const auto p = x.subspan(node * g, g);
@@ -82,41 +84,33 @@ RankBoxes::RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
       continue;
     for (std::size_t k = 0; k < g; ++k)
     {
-      mine[k] = std::min(mine[k], p[k]);
-      mine[g + k] = std::max(mine[g + k], p[k]);
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
     }
   }
-  const auto [axis, sine] = cone(own, x);
-  std::copy_n(axis.begin(), g, mine.begin() + 2 * g);
-  mine[3 * g] = sine;
-  _every = ranks.gather(mine);
-  for (int r = 0; r < _num_ranks; ++r)
-    if (there(r))
-      for (std::size_t k = 0; k < g; ++k)
-        _slack = std::max({_slack, box_slack * std::abs(low(r)[k]),
-                           box_slack * std::abs(high(r)[k])});
+  if (low[0] <= high[0])
+  {
+    const auto [axis, sine] = cone(own, x);
+    std::copy_n(axis.begin(), g, box.begin() + 1 + 2 * gdim);
+    box.back() = sine;
+  }
+  else
+    box.clear();
+  _boxes = mesh::gathered<double>(ranks, box);
+  for (int i = 0; i < size(); ++i)
+    for (const double c : row(i).subspan(1, 2 * g))
+      _slack = std::max(_slack, box_slack * std::abs(c));
 }
 
-bool RankBoxes::there(int rank) const { return low(rank)[0] <= high(rank)[0]; }
-
-std::span<const double> RankBoxes::low(int rank) const
+int RankBoxes::size() const
 {
-  return std::span(_every).subspan((3 * _gdim + 1) * rank, _gdim);
+  return static_cast<int>(_boxes.size()) / (3 * _gdim + 2);
 }
 
-std::span<const double> RankBoxes::high(int rank) const
+std::span<const double> RankBoxes::row(int i) const
 {
-  return std::span(_every).subspan((3 * _gdim + 1) * rank + _gdim, _gdim);
-}
-
-std::span<const double> RankBoxes::axis(int rank) const
-{
-  return std::span(_every).subspan((3 * _gdim + 1) * rank + 2 * _gdim, _gdim);
-}
-
-double RankBoxes::sine(int rank) const
-{
-  return _every[(3 * _gdim + 1) * rank + 3 * _gdim];
+  const std::size_t width = 3 * _gdim + 2;
+  return std::span(_boxes).subspan(i * width, width);
 }
 
 RankBoxes::Near RankBoxes::from_points(std::span<const double> points,
@@ -135,10 +129,14 @@ RankBoxes::Near RankBoxes::from_points(std::span<const double> points,
       to[k] = std::max(to[k], points[i * g + k]);
     }
   const double most = std::ranges::max(bound);
-  for (int r = 0; r < _num_ranks; ++r)
-    if (there(r) and distance(low(r), high(r), from, to) - _slack <= most)
-      near.ranks.push_back(r);
-  const std::size_t m = near.ranks.size();
+  std::vector<int> which;
+  for (int r = 0; r < size(); ++r)
+    if (distance(low(r), high(r), from, to) - _slack <= most)
+    {
+      which.push_back(r);
+      near.ranks.push_back(rank(r));
+    }
+  const std::size_t m = which.size();
   near.distance.assign(n * m, infinity);
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -147,7 +145,7 @@ RankBoxes::Near RankBoxes::from_points(std::span<const double> points,
         = std::ranges::all_of(normal, [](double c) { return c == 0; });
     for (std::size_t j = 0; j < m; ++j)
     {
-      const int r = near.ranks[j];
+      const int r = which[j];
       const double d = std::max(distance(low(r), high(r), p, p) - _slack, 0.0);
       double along = 0;
       for (std::size_t k = 0; k < g; ++k)
@@ -159,13 +157,11 @@ RankBoxes::Near RankBoxes::from_points(std::span<const double> points,
   return near;
 }
 
-std::vector<std::int8_t>
+std::map<int, std::vector<std::int32_t>>
 RankBoxes::from_facets(std::span<const double> x,
-                       const geometry::FacetList& slave, double reach,
-                       double margin) const
+                       const geometry::FacetList& slave, double reach) const
 {
-  std::vector<std::int8_t> near(
-      static_cast<std::size_t>(slave.size()) * _num_ranks, 0);
+  std::map<int, std::vector<std::int32_t>> near;
   for (std::int32_t f = 0; f < slave.size(); ++f)
   {
     const Vector<3> middle = geometry::middle(slave[f], x, _gdim);
@@ -180,10 +176,8 @@ RankBoxes::from_facets(std::span<const double> x,
       wide = std::max(wide, norm(p - middle));
     }
     wide *= 2 * (1 + geometry::facet_margin);
-    for (int r = 0; r < _num_ranks; ++r)
+    for (int r = 0; r < size(); ++r)
     {
-      if (!there(r))
-        continue;
       Vector<3> centre{}, half{};
       double upright = 0;
       for (int k = 0; k < _gdim; ++k)
@@ -195,10 +189,10 @@ RankBoxes::from_facets(std::span<const double> x,
       const double height = dot(normal, centre);
       // Beside the prism: the distance from its axis
       const double beside = norm(centre - height * normal);
-      near[static_cast<std::size_t>(f) * _num_ranks + r]
-          = !std::isfinite(height)
-            or (std::abs(height) <= upright + reach + wide
-                and beside <= norm(half) + wide);
+      if (not std::isfinite(height)
+          or (std::abs(height) <= upright + reach + wide
+              and beside <= norm(half) + wide))
+        near[rank(r)].push_back(f);
     }
   }
   return near;

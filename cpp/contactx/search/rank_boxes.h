@@ -5,6 +5,7 @@
 
 #include "../geometry/nodal.h"
 #include "../mesh/ranks.h"
+#include <map>
 
 namespace contactx::search
 {
@@ -26,7 +27,8 @@ public:
     std::vector<double> distance;
   };
 
-  /// @brief Exchange the boxes; all ranks must take part.
+  /// @brief Exchange the boxes of ranks that have facets; all ranks must take
+  /// part.
   /// @param[in] ranks The ranks.
   /// @param[in] own Facets of this rank.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
@@ -43,27 +45,34 @@ public:
                    std::span<const double> normals,
                    std::span<const double> bound) const;
 
-  /// @brief True if boxes may meet the prisms over slave facets.
+  /// @brief Slave facets over which boxes may meet prisms, by ranks.
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] slave Slave facets.
   /// @param[in] reach Half the height of the prisms.
-  /// @param[in] margin By which part they are wider than the facets.
-  /// @return Whether they may (shape=(num_facets, number of ranks)).
-  std::vector<std::int8_t> from_facets(std::span<const double> x,
-                                       const geometry::FacetList& slave,
-                                       double reach, double margin) const;
+  /// @return Numbers of facets, ascending, for each rank that has any.
+  std::map<int, std::vector<std::int32_t>>
+  from_facets(std::span<const double> x, const geometry::FacetList& slave,
+              double reach) const;
 
 private:
-  // Of a rank without facets the box is empty
-  bool there(int rank) const;
-  std::span<const double> low(int rank) const;
-  std::span<const double> high(int rank) const;
-  std::span<const double> axis(int rank) const;
-  double sine(int rank) const;
+  // Of the ranks that have facets, in their order
+  int size() const;
+  std::span<const double> low(int i) const { return row(i).subspan(1, _gdim); }
+  std::span<const double> high(int i) const
+  {
+    return row(i).subspan(1 + _gdim, _gdim);
+  }
+  std::span<const double> axis(int i) const
+  {
+    return row(i).subspan(1 + 2 * _gdim, _gdim);
+  }
+  double sine(int i) const { return row(i).back(); }
+  int rank(int i) const { return static_cast<int>(row(i).front()); }
+  std::span<const double> row(int i) const;
 
-  int _gdim, _num_ranks;
+  int _gdim;
   double _slack = 0;
-  // Corners, axis and sine of half the angle of each rank
-  std::vector<double> _every;
+  // Rank, corners, axis and sine of half the angle of each
+  std::vector<double> _boxes;
 };
 } // namespace contactx::search

@@ -128,10 +128,7 @@ Rows::Rows(mesh::Ranks& ranks, std::span<const std::int64_t> keys, int width)
   _place.resize(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     _place[order[k]] = static_cast<std::int32_t>(k);
-  const std::array mine_here{static_cast<double>(order.size())};
-  const std::vector<double> counts = ranks.gather(mine_here);
-  for (int r = 0; r < ranks.rank(); ++r)
-    _first += static_cast<std::int64_t>(counts[r]);
+  _first = mesh::total_before(ranks, std::ssize(order));
 }
 
 std::vector<std::byte> Rows::to_share(std::span<const std::byte> rows,

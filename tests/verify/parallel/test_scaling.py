@@ -36,8 +36,8 @@ def test_what_a_rank_sends(method):
     # But for the ends of the slab, of which two ranks have one each
     assert two["iterations"] == pytest.approx(one["iterations"], abs=1)
     assert two["force"] == pytest.approx(one["force"], rel=0.1)
-    # A box has two corners, an axis and a sine
-    assert two["of boxes"] == 7 * 8
+    # A box has a rank, two corners, an axis and a sine; before it comes its size
+    assert two["of boxes"] == (8 + 1) * 8
     assert two["of boxes"] < two["bytes a search"] <= 20_000
     assert 0 < two["halo"] <= 200 and two["bytes an iteration"] <= 200_000
 

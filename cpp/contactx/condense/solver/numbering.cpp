@@ -8,20 +8,6 @@
 using namespace contactx;
 using namespace contactx::condense;
 
-namespace
-{
-/// Sum of a count over the ranks before this one
-std::int64_t first_of(mesh::Ranks& ranks, std::size_t count)
-{
-  if (ranks.size() == 1)
-    return 0;
-  const std::array mine{static_cast<double>(count)};
-  const std::vector<double> counts = ranks.gather(mine);
-  return static_cast<std::int64_t>(
-      std::accumulate(counts.begin(), counts.begin() + ranks.rank(), 0.0));
-}
-} // namespace
-
 Numbering::Numbering(const mesh::Halo& halo, Algebra& algebra)
     : _halo(halo), _algebra(algebra),
       _num_owned(std::size_t(halo.num_owned()) * halo.gdim()),
@@ -73,7 +59,7 @@ Numbering::places(std::span<const std::int32_t> dofs) const
 {
   // Rows of masters may be another rank's; hosts leave negative numbers out
   std::vector<std::int64_t> place(_num_local, -1);
-  std::int64_t next = first_of(ranks(), dofs.size());
+  std::int64_t next = mesh::total_before(ranks(), dofs.size());
   for (const std::int32_t dof : dofs)
     place[dof] = next++;
   _halo.forward(std::span<std::int64_t>(place), gdim());
@@ -115,7 +101,7 @@ MatrixPtr contactx::condense::diagonal_matrix(Algebra& algebra,
                                               std::span<const double> values)
 {
   const std::vector<std::int64_t> places
-      = successive(first_of(ranks, values.size()), values.size());
+      = successive(mesh::total_before(ranks, values.size()), values.size());
   return algebra.matrix(values.size(), values.size(), places, places, values);
 }
 

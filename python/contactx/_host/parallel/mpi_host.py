@@ -47,11 +47,13 @@ class MPIRanks:
         """Reduce numbers over the ranks, in place."""
         self.comm.Allreduce(MPI.IN_PLACE, values, op=_OPERATIONS[how])
 
-    def gather(self, values: Array) -> Array:
-        """Numbers of all ranks, one rank's after the other's."""
-        every = np.empty(self.size * len(values))
-        self.comm.Allgather(values, every)
-        return every
+    def gather(self, mine: bytes) -> bytes:
+        """Bytes of all ranks, one rank's after the other's."""
+        sizes = np.empty(self.size, dtype=np.int64)
+        self.comm.Allgather(np.array([len(mine)]), sizes)
+        every = bytearray(sizes.sum())
+        self.comm.Allgatherv([mine, MPI.BYTE], [every, sizes, MPI.BYTE])
+        return bytes(every)
 
     def exchange(self, outgoing: dict[int, bytes]) -> dict[int, bytes]:
         """Send bytes and receive those of others."""
