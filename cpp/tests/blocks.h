@@ -5,7 +5,6 @@
 
 #include "threads.h"
 #include <contactx/mesh/mesh.h>
-#include <string>
 
 namespace contactx::tests
 {
@@ -26,8 +25,7 @@ struct Side
 
   void add(std::span<const std::int32_t> nodes, std::int32_t of)
   {
-    facets.nodes.insert(facets.nodes.end(), nodes.begin(), nodes.end());
-    facets.offsets.push_back(static_cast<std::int32_t>(facets.nodes.size()));
+    add_facet(facets, nodes);
     cell.push_back(of);
   }
 };
@@ -47,8 +45,7 @@ struct Blocks
     return static_cast<std::int32_t>(x.size()) / gdim;
   }
 
-  /// @brief Add a block of n cells an axis.
-  /// @return Its number.
+  /// @brief Add a block of n cells an axis; its number.
   int add(int n, const Vector<3>& low, const Vector<3>& high)
   {
     _blocks.push_back(
@@ -214,12 +211,8 @@ struct RankBlocks
     geometry::Facets result;
     for (std::int32_t f = 0; f < side.facets.list().size(); ++f)
       if (_all.rank_of(side.cell[f]) == halo->ranks().rank())
-      {
-        for (const std::int32_t node : side.facets.list()[f])
-          result.nodes.push_back(here(node));
-        result.offsets.push_back(
-            static_cast<std::int32_t>(result.nodes.size()));
-      }
+        add_facet(result, side.facets.list()[f],
+                  [this](std::int32_t node) { return here(node); });
     return result;
   }
 
@@ -232,11 +225,7 @@ private:
   const DistributedBlocks& _all;
 };
 
-/// @brief What some work on blocks throws on all ranks; empty if nothing.
-/// @param[in] blocks The mesh.
-/// @param[in] num_ranks Number of ranks.
-/// @param[in] work Called as work(rank_blocks) by each rank.
-/// @throws std::logic_error if ranks do not throw the same.
+/// @brief What work(rank_blocks) throws on all ranks; empty if nothing.
 template <class Work>
 std::string said(const Blocks& blocks, int num_ranks, Work work,
                  bool is_scattered = false)
@@ -245,4 +234,33 @@ std::string said(const Blocks& blocks, int num_ranks, Work work,
   return said_on(num_ranks,
                  [&](ThreadRanks& ranks) { work(RankBlocks(all, ranks)); });
 }
+
+/// @brief A block of a size on another one, which is 1 high and `wide`.
+struct Stacked
+{
+  Blocks blocks;
+
+  /// @brief Put the upper one, of n cells an axis, at `low` and at a height
+  /// above the lower one, which has four.
+  Stacked(int gdim, double low, double height, double size, double wide,
+          int n = 3)
+      : blocks(gdim)
+  {
+    Vector<3> at{low, low, low}, bottom{}, top{wide, wide, wide};
+    at[gdim - 1] = height;
+    bottom[gdim - 1] = -1;
+    top[gdim - 1] = 0;
+    blocks.add(n, at, at + Vector<3>{size, size, size});
+    blocks.add(4, bottom, top);
+  }
+
+  Side upper(int axis, bool is_upper) const
+  {
+    return blocks.side(0, axis, is_upper);
+  }
+  Side lower(int axis, bool is_upper) const
+  {
+    return blocks.side(1, axis, is_upper);
+  }
+};
 } // namespace contactx::tests

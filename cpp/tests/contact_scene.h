@@ -9,20 +9,43 @@
 #include <contactx/contact/contact.h>
 #include <contactx/geometry/facets.h>
 #include <contactx/mesh/halo.h>
-#include <numeric>
-#include <random>
 
 namespace contactx::tests
 {
+/// @brief A bulk of which each rank has all nodes.
+class WholeBulk final : public NumberedBulk
+{
+public:
+  WholeBulk(mesh::Ranks& ranks, const std::vector<std::int64_t>& numbers,
+            std::int32_t num_owned,
+            std::shared_ptr<const std::vector<double>> displacement)
+      : NumberedBulk(ranks, numbers, num_owned),
+        _displacement(std::move(displacement))
+  {
+  }
+
+  void set_ghosts(std::span<const std::int64_t> numbers,
+                  std::span<const std::int32_t>) override
+  {
+    if (not numbers.empty())
+      throw std::logic_error("all nodes are here");
+  }
+  void displacement(std::span<double> values) const override
+  {
+    std::ranges::copy(*_displacement, values.begin());
+  }
+
+private:
+  std::shared_ptr<const std::vector<double>> _displacement;
+};
+
 /// @brief A mesh of which each rank has all nodes, its own first.
 struct WholeMesh
 {
-  /// @param[in] n Number of nodes.
-  /// @param[in] ranks The ranks; one alone if null.
+  /// @brief Take n nodes, on one rank alone if there are none.
   WholeMesh(std::int32_t n, mesh::Ranks* ranks)
-      : ranks(ranks), number(n), place(n), num_owned(n)
+      : ranks(ranks), number(numbered<std::int64_t>(n)), place(n), num_owned(n)
   {
-    std::iota(number.begin(), number.end(), 0);
     if (ranks)
       num_owned = static_cast<std::int32_t>(
           std::ranges::stable_partition(
@@ -54,10 +77,8 @@ struct WholeMesh
     return result;
   }
 
-  /// @brief Facets by the nodes of this rank.
-  /// @param[in] facets Facets of the mesh.
-  /// @param[in] around Whether those are taken that have a node of this rank,
-  /// else those whose first node is.
+  /// @brief Facets by the nodes of this rank: those around its nodes, or those
+  /// whose first node it has.
   geometry::Facets here(const geometry::Facets& facets, bool around) const
   {
     geometry::Facets result;
@@ -66,82 +87,33 @@ struct WholeMesh
       const auto nodes = facets.list()[f];
       if (std::ranges::any_of(nodes.first(around ? nodes.size() : 1),
                               [&](std::int32_t node) { return owns(node); }))
-      {
-        for (const std::int32_t node : nodes)
-          result.nodes.push_back(place[node]);
-        result.offsets.push_back(
-            static_cast<std::int32_t>(result.nodes.size()));
-      }
+        add_facet(result, nodes,
+                  [&](std::int32_t node) { return place[node]; });
     }
     return result;
   }
 
-  /// @brief The nodes with their positions.
-  /// @param[in] x Positions (shape=(n, gdim)).
-  /// @param[in] gdim Geometric dimension.
-  /// @param[in] u Displacements in the order of this rank.
+  /// @brief The nodes with their positions, and displacements in the order of
+  /// this rank.
   std::shared_ptr<mesh::Halo>
   halo(const std::vector<double>& x, int gdim,
-       std::shared_ptr<const std::vector<double>> u) const;
+       std::shared_ptr<const std::vector<double>> u) const
+  {
+    if (not ranks)
+      return mesh::serial_halo(x, gdim, std::move(u));
+    mesh::BulkNodes bulk{gdim, num_owned, number, {}, number, here(x, gdim)};
+    for (const std::int64_t node : number)
+      bulk.owners.push_back(owner(node));
+    return std::make_shared<mesh::Halo>(
+        std::move(bulk),
+        std::make_unique<WholeBulk>(*ranks, number, num_owned, std::move(u)));
+  }
 
   mesh::Ranks* ranks;
   std::vector<std::int64_t> number; ///< in the mesh, of each node here
   std::vector<std::int32_t> place;  ///< here, of each node of the mesh
   std::int32_t num_owned;
 };
-
-/// @brief The bulk of a rank that has all nodes.
-class WholeBulk final : public mesh::HaloAdapter
-{
-public:
-  WholeBulk(const WholeMesh& mesh,
-            std::shared_ptr<const std::vector<double>> displacement)
-      : _map(*mesh.ranks, mesh.number, mesh.num_owned),
-        _displacement(std::move(displacement))
-  {
-  }
-
-  mesh::Ranks& ranks() override { return _map.ranks(); }
-  void set_ghosts(std::span<const std::int64_t> numbers,
-                  std::span<const std::int32_t>) override
-  {
-    if (not numbers.empty())
-      throw std::logic_error("all nodes are here");
-  }
-  void forward(std::span<double> values, int width) override
-  {
-    _map.forward(values, width);
-  }
-  void forward(std::span<std::int64_t> values, int width) override
-  {
-    _map.forward(values, width);
-  }
-  void reverse(std::span<double> values, int width) override
-  {
-    _map.reverse(values, width);
-  }
-  void displacement(std::span<double> values) const override
-  {
-    std::ranges::copy(*_displacement, values.begin());
-  }
-
-private:
-  NumberedNodes _map;
-  std::shared_ptr<const std::vector<double>> _displacement;
-};
-
-inline std::shared_ptr<mesh::Halo>
-WholeMesh::halo(const std::vector<double>& x, int gdim,
-                std::shared_ptr<const std::vector<double>> u) const
-{
-  if (not ranks)
-    return mesh::serial_halo(x, gdim, std::move(u));
-  mesh::BulkNodes bulk{gdim, num_owned, number, {}, number, here(x, gdim)};
-  for (const std::int64_t node : number)
-    bulk.owners.push_back(owner(node));
-  return std::make_shared<mesh::Halo>(
-      std::move(bulk), std::make_unique<WholeBulk>(*this, std::move(u)));
-}
 
 /// @brief A law with the same coefficient of friction at n nodes.
 inline std::shared_ptr<law::Coulomb> coulomb(std::size_t n, double friction)
@@ -165,11 +137,10 @@ struct ContactScene
   /// 1 at displacements with a Dirichlet condition, in the order of this rank
   std::vector<std::int8_t> prescribed;
 
-  /// @param[in] away Added to all coordinates.
   explicit ContactScene(int dim, double height = 0.05,
                         Cells cells = Cells::mixed,
-                        mesh::Ranks* ranks = nullptr, double away = 0)
-      : ContactScene(moved(TwoSheets(dim, height, cells), away), ranks)
+                        mesh::Ranks* ranks = nullptr)
+      : ContactScene(TwoSheets(dim, height, cells), ranks)
   {
   }
 
@@ -204,7 +175,7 @@ struct ContactScene
   /// @param[in] shared 1 at nodes that both surfaces have; empty for none.
   template <class M>
   std::shared_ptr<contact::Contact>
-  contact(std::shared_ptr<law::Law> law,
+  contact(std::shared_ptr<law::Law> law = std::make_shared<law::Frictionless>(),
           contact::Sliding sliding = contact::Sliding::finite,
           std::vector<std::int8_t> shared = {},
           std::optional<double> adjust = std::nullopt) const
@@ -245,14 +216,6 @@ struct ContactScene
       (*u)[g * mesh.place[i] + g - 1] = up;
     }
   }
-
-private:
-  static TwoSheets moved(TwoSheets sheets, double away)
-  {
-    for (double& x : sheets.x)
-      x += away;
-    return sheets;
-  }
 };
 
 /// @brief Residual of contacts: forces on all nodes, then the complementarity
@@ -261,16 +224,15 @@ inline std::vector<double>
 residual(const std::vector<std::shared_ptr<contact::Contact>>& contacts)
 {
   const mesh::Halo& halo = contacts.front()->halo();
-  std::vector<double> b(std::size_t(halo.num_nodes()) * halo.gdim(), 0);
+  const std::size_t n = std::size_t(halo.num_nodes()) * halo.gdim();
+  std::vector<double> b(n, 0);
   for (const auto& c : contacts)
   {
     c->update_gap();
     c->law()->evaluate(*c->nodes());
-    c->add_residual(
-        std::span(b).first(std::size_t(halo.num_nodes()) * halo.gdim()));
-  }
-  for (const auto& c : contacts)
+    c->add_residual(std::span(b).first(n));
     b.insert(b.end(), c->nodes()->value.begin(), c->nodes()->value.end());
+  }
   return b;
 }
 } // namespace contactx::tests

@@ -4,10 +4,6 @@
 #pragma once
 
 #include "generator.h"
-#include <algorithm>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 /// @brief Cells by their shape functions, and det F at any of their points.
 namespace contactx::tests

@@ -5,8 +5,6 @@
 
 #include "stepped_bodies.h"
 #include <contactx/condense/solver/algebra.h>
-#include <gtest/gtest.h>
-#include <numeric>
 
 namespace contactx::tests
 {

@@ -9,6 +9,38 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+/// @brief Expect that what a call is given is refused.
+#define EXPECT_REFUSED(...) EXPECT_THROW(__VA_ARGS__, std::invalid_argument)
+
+/// @brief A test that runs in the plane and in space.
+#define TEST_2D_3D(suite, name, dim)                                           \
+  static void suite##_##name(int dim);                                         \
+  TEST(suite, name)                                                            \
+  {                                                                            \
+    suite##_##name(2);                                                         \
+    suite##_##name(3);                                                         \
+  }                                                                            \
+  void suite##_##name(const int dim)
+
+/// @brief A test of a typed suite whose type has a name.
+#define TYPED_TEST_OF(suite, name, type)                                       \
+  template <class type>                                                        \
+  static void suite##_##name();                                                \
+  TYPED_TEST(suite, name) { suite##_##name<TypeParam>(); }                     \
+  template <class type>                                                        \
+  void suite##_##name()
+
+/// @brief A test of a typed suite that runs in the plane and in space.
+#define TYPED_TEST_2D_3D(suite, name, dim)                                     \
+  template <class TypeParam>                                                   \
+  static void suite##_##name(int dim);                                         \
+  TYPED_TEST(suite, name)                                                      \
+  {                                                                            \
+    suite##_##name<TypeParam>(2);                                              \
+    suite##_##name<TypeParam>(3);                                              \
+  }                                                                            \
+  template <class TypeParam>                                                   \
+  void suite##_##name(const int dim)
 
 namespace contactx::tests
 {

@@ -21,24 +21,8 @@ geometry::Nodes<F> turned(geometry::Nodes<F> x)
   return x;
 }
 
-/// @brief Polyline of n segments, its node i at position(i / n).
-template <class Position>
-Scene line(int n, Position position)
-{
-  Scene scene(2);
-  for (int i = 0; i <= n; ++i)
-    scene.node(position(double(i) / n));
-  for (int i = 0; i < n; ++i)
-    scene.facet({i, i + 1});
-  return scene;
-}
-
-/// @brief Surface of n segments, or n x n cells, over [low, high]^2.
-/// @param[in] gdim Geometric dimension.
-/// @param[in] n Number of cells an axis.
-/// @param[in] cells What a surface is made of.
-/// @param[in] up Whether it looks up, along the last axis.
-/// @param[in] position Called as position(s, t), s and t from low to high.
+/// @brief Surface of n segments, or n x n cells, over [low, high]^2, that looks
+/// up or down; its nodes are at position(s, t).
 template <class Position>
 Scene sheet(int gdim, int n, Cells cells, bool up, double low, double high,
             Position position)
@@ -94,7 +78,7 @@ struct Facing
   void move(Map&& map)
   {
     for (std::size_t i = 0; i < x.size() / gdim; ++i)
-      std::copy_n(map(vector_at(x, i, gdim)).begin(), gdim, &x[gdim * i]);
+      std::copy_n(map(point(i)).begin(), gdim, &x[gdim * i]);
   }
 
   search::FacetSearch search() const

@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include "thread_ranks.h"
-#include <array>
-#include <cmath>
+#include "spring_bodies.h"
 #include <contactx/law/coulomb.h>
 #include <contactx/solve/free_bodies.h>
 
@@ -54,10 +52,9 @@ struct Truss
     return first;
   }
 
-  /// @brief Add a disc of bars from its middle to its rim and along it; the
-  /// first node of the rim is the lowest.
-  /// @return Number of the middle, before those of the rim.
-  std::int32_t add_disc(int n, std::array<double, 2> middle, double radius)
+  /// @brief Add a disc of bars from its middle, its first node, to its rim and
+  /// along it; the first node of the rim is the lowest.
+  void add_disc(int n, std::array<double, 2> middle, double radius)
   {
     const std::int32_t first = num_nodes();
     x.insert(x.end(), middle.begin(), middle.end());
@@ -69,158 +66,80 @@ struct Truss
       cells.insert(cells.end(), {first, first + 1 + i, first + 1 + i,
                                  first + 1 + (i + 1) % n});
     }
-    return first;
   }
 };
 
-/// @brief A truss as the bulk. Each rank has all nodes, its own first.
-class TrussBulk final : public solve::Bulk
+/// @brief A truss as the bulk: bars that resist to be stretched alone.
+class TrussBulk final : public SpringBulk
 {
 public:
-  /// @param[in] truss The truss.
-  /// @param[in] map Nodes of this rank.
-  /// @param[in] number Number in the truss of each node of this rank.
-  TrussBulk(const Truss& truss, std::shared_ptr<const mesh::NodeMap> map,
-            std::vector<std::int64_t> number)
-      : _gdim(truss.gdim), _cells(truss.cells), _map(std::move(map)),
-        _number(std::move(number)), fixed(truss.x.size()),
-        ground(truss.x.size()), u(truss.x.size())
+  TrussBulk(const WholeMesh& mesh, std::shared_ptr<mesh::Halo> halo,
+            const Truss& truss)
+      : SpringBulk(mesh, std::move(halo),
+                   std::make_shared<std::vector<double>>(truss.x.size()),
+                   truss.cells, 2)
   {
-    for (const std::int64_t node : _number)
-      for (int c = 0; c < _gdim; ++c)
-        _reference.push_back(truss.x[node * _gdim + c]);
-    _x = truss.x;
+    linear = false;
   }
 
-  int gdim() const override { return _gdim; }
-  bool is_linear() const override { return linear; }
-  std::span<const double> reference() override { return _reference; }
   std::span<const double> positions() override
   {
-    _positions = _reference;
-    for (std::size_t i = 0; i < _number.size(); ++i)
-      for (int c = 0; c < _gdim; ++c)
-        _positions[i * _gdim + c] += u[_number[i] * _gdim + c];
+    _positions.assign(_halo->reference().begin(), _halo->reference().end());
+    for (std::size_t i = 0; i < u->size(); ++i)
+      _positions[i] += (*u)[i];
     return _positions;
-  }
-  std::span<const double> displacements() override
-  {
-    return _displacements = owned(std::span<const double>(u));
-  }
-  std::span<const std::int8_t> markers() override
-  {
-    return _markers = owned(std::span<const std::int8_t>(fixed));
   }
   std::span<const double> diagonal() override
   {
-    std::vector<double> all(u.size()), field(u.size()), force;
-    for (std::size_t i = 0; i < u.size(); ++i)
+    std::vector<double> field(u->size());
+    _diagonal.resize(u->size());
+    for (std::size_t i = 0; i < u->size(); ++i)
     {
       field[i] = 1;
-      force = product(field);
-      all[i] = force[i];
+      _diagonal[i] = product(field)[i];
       field[i] = 0;
     }
-    return _diagonal = owned(std::span<const double>(all));
+    return owned(_diagonal);
   }
   std::span<const double> products(std::span<const double> fields,
                                    int count) override
   {
-    ++calls;
     if (throws)
       throw std::runtime_error("the stiffness is spoilt");
-    _products.clear();
-    const std::size_t n = fields.size() / count;
-    for (int k = 0; k < count; ++k)
-    {
-      // Of all ranks, then in the order of the truss
-      std::vector<double> here(_number.size() * _gdim), all(here.size());
-      std::ranges::copy(fields.subspan(k * n, n), here.begin());
-      _map->forward(std::span<double>(here), _gdim);
-      for (std::size_t i = 0; i < _number.size(); ++i)
-        for (int c = 0; c < _gdim; ++c)
-          all[_number[i] * _gdim + c] = here[i * _gdim + c];
-      const std::vector<double> force = product(all);
-      const auto mine = owned(std::span<const double>(force));
-      _products.insert(_products.end(), mine.begin(), mine.end());
-    }
-    return _products;
+    return SpringBulk::products(fields, count);
   }
 
-  // Free bodies ask for none of these
-  void read() override { asked(); }
-  bool has_own_jacobian() const override { return false; }
-  std::span<const double> residual() override { return asked(); }
-  std::span<const double> defect() override { return asked(); }
-  std::span<const double> lifted() override { return asked(); }
-  void set_displacements(std::span<const double>) override { asked(); }
-  std::span<const std::int32_t> cells() override { return _cells; }
-  int nodes_per_cell() const override { return 2; }
-  std::span<const double> cell_sizes() override { return asked(); }
-  std::span<const double> cell_forces() override { return asked(); }
-
-  /// @brief Product of the stiffness with a field of the truss.
-  std::vector<double> product(std::span<const double> field) const
+  std::vector<double> product(std::span<const double> field) const override
   {
+    const std::size_t g = gdim();
+    const auto x = _halo->reference();
     std::vector<double> force(field.size());
     for (std::size_t i = 0; i < field.size(); ++i)
       force[i] = ground[i] * field[i];
     for (std::size_t b = 0; b < _cells.size(); b += 2)
     {
-      const std::size_t p = _cells[b] * _gdim, q = _cells[b + 1] * _gdim;
+      const std::size_t p = _cells[b] * g, q = _cells[b + 1] * g;
       double square = 0, stretch = 0;
-      for (int c = 0; c < _gdim; ++c)
+      for (std::size_t c = 0; c < g; ++c)
       {
-        const double d = _x[q + c] - _x[p + c];
+        const double d = x[q + c] - x[p + c];
         square += d * d;
         stretch += d * (field[q + c] - field[p + c]);
       }
-      for (int c = 0; c < _gdim; ++c)
+      for (std::size_t c = 0; c < g; ++c)
       {
-        const double part = (_x[q + c] - _x[p + c]) * stretch / square;
         // Stresses resist the turns of bars
-        const double turn = tension * (field[q + c] - field[p + c]);
-        force[q + c] += part + turn;
-        force[p + c] -= part + turn;
+        const double part = (x[q + c] - x[p + c]) * stretch / square
+                            + tension * (field[q + c] - field[p + c]);
+        force[q + c] += part;
+        force[p + c] -= part;
       }
     }
     return force;
   }
 
-  /// @brief Values at owned nodes or dofs, of those of the truss.
-  template <class T>
-  std::vector<T> owned(std::span<const T> all) const
-  {
-    std::vector<T> mine;
-    const std::size_t width = all.size() / _number.size();
-    for (std::int32_t i = 0; i < _map->num_owned(); ++i)
-      for (std::size_t c = 0; c < width; ++c)
-        mine.push_back(all[_number[i] * width + c]);
-    return mine;
-  }
-
-private:
-  static std::span<const double> asked()
-  {
-    throw std::logic_error("a truss has no forces");
-  }
-
-  int _gdim;
-  std::vector<std::int32_t> _cells;
-  std::shared_ptr<const mesh::NodeMap> _map;
-  std::vector<std::int64_t> _number;
-  std::vector<double> _x, _reference, _positions, _displacements, _diagonal,
-      _products;
-  std::vector<std::int8_t> _markers;
-
-public:
-  // Of the truss
-  std::vector<std::int8_t> fixed; ///< 1 at prescribed displacements
-  std::vector<double> ground;     ///< springs to the ground
-  std::vector<double> u;          ///< displacement
-  double tension = 0;             ///< of all bars, over their length
-  bool linear = false, throws = false;
-  int calls = 0;
+  double tension = 0; ///< of all bars, over their length
+  bool throws = false;
 };
 
 /// @brief Slave nodes that are paired with nodes, or with a rigid plane.
@@ -277,11 +196,8 @@ public:
         traction[which[k] * gdim + c] = tractions[k * gdim + c];
   }
 
-  /// @brief Add a slave node.
-  /// @param[in] slave The node.
-  /// @param[in] master The node that it is paired with, -1 for a plane.
-  /// @param[in] normal Unit normal of the master.
-  /// @param[in] at Its gap.
+  /// @brief Add a slave node with its gap, that is paired with a node or, at
+  /// -1, with a plane.
   void add(std::int32_t slave, std::int32_t master,
            std::array<double, 3> normal, double at)
   {
@@ -312,41 +228,22 @@ public:
   std::vector<double> gap, slip, traction;
 };
 
-/// @brief A truss with its bodies, on one rank or several.
-struct FreeScene
+/// @brief A truss with its bodies, on one rank or several: those on all of
+/// them.
+struct FreeScene : WholeMesh
 {
-  /// @param[in] truss The truss.
-  /// @param[in] ranks The ranks; one alone if null.
-  explicit FreeScene(Truss given, mesh::Ranks* ranks = nullptr)
-      : truss(std::move(given)), number(truss.num_nodes())
+  explicit FreeScene(const Truss& given, mesh::Ranks* ranks = nullptr)
+      : WholeMesh(given.num_nodes(), ranks), truss(given)
   {
-    const std::int32_t n = truss.num_nodes();
-    std::int32_t num_owned = n;
-    for (std::int32_t i = 0; i < n; ++i)
-      number[i] = i;
-    if (ranks)
-    {
-      // Nodes in turn: bodies are on all ranks
-      const auto mine = [&](std::int64_t node)
-      { return node * 7 % n % ranks->size() == ranks->rank(); };
-      num_owned = static_cast<std::int32_t>(
-          std::ranges::stable_partition(number, mine).begin() - number.begin());
-      map = std::make_shared<NumberedNodes>(*ranks, number, num_owned);
-    }
-    else
-      map = std::make_shared<mesh::SerialNodes>(n);
-    place.resize(n);
-    for (std::int32_t i = 0; i < n; ++i)
-      place[number[i]] = i;
-    std::vector<std::int32_t> cells;
-    for (const std::int32_t node : truss.cells)
-      cells.push_back(place[node]);
+    const auto nodes
+        = halo(truss.x, truss.gdim,
+               std::make_shared<std::vector<double>>(truss.x.size()));
+    bulk = std::make_shared<TrussBulk>(*this, nodes, truss);
+    const auto cells = bulk->cells();
     bodies = std::make_shared<mesh::Bodies>(
-        cells, 2, static_cast<std::int32_t>(cells.size() / 2), number, map);
-    bulk = std::make_shared<TrussBulk>(truss, map, number);
+        cells, 2, static_cast<std::int32_t>(cells.size() / 2),
+        nodes->original(), nodes);
   }
-
-  bool owns(std::int32_t node) const { return place[node] < map->num_owned(); }
 
   /// @brief Add a contact.
   std::shared_ptr<NodeContact> add_contact(double friction = 0)
@@ -361,7 +258,7 @@ struct FreeScene
   /// @brief What keeps the bodies solvable; once all contacts are there.
   solve::FreeBodies free_bodies() const
   {
-    return {bodies, bulk, contacts, std::span(number).first(map->num_owned())};
+    return {bodies, bulk, contacts, std::span(number).first(num_owned)};
   }
 
   /// @brief The same at the start of a step.
@@ -378,13 +275,15 @@ struct FreeScene
   {
     if (of_bulk.empty())
       of_bulk = load;
-    for (auto* forces : {&load, &of_bulk})
-      for (double& force : *forces)
-        force = -force;
-    return {[load = bulk->owned(std::span<const double>(load))]
-            { return load; },
-            [of_bulk = bulk->owned(std::span<const double>(of_bulk))]
-            { return of_bulk; }, [] { return 1.0; }};
+    const auto mine = [this](std::vector<double> force)
+    {
+      force = here(force, truss.gdim);
+      force.resize(num_owned * truss.gdim);
+      for (double& f : force)
+        f = -f;
+      return [force] { return force; };
+    };
+    return {mine(load), mine(of_bulk), [] { return 1.0; }};
   }
 
   /// @brief The same force on some nodes of the truss, from one on.
@@ -397,9 +296,6 @@ struct FreeScene
   }
 
   Truss truss;
-  std::vector<std::int64_t> number; ///< in the truss, of each node here
-  std::vector<std::int32_t> place;  ///< here, of each node of the truss
-  std::shared_ptr<mesh::NodeMap> map;
   std::shared_ptr<mesh::Bodies> bodies;
   std::shared_ptr<TrussBulk> bulk;
   std::vector<std::shared_ptr<solve::FreeBodyContact>> contacts;

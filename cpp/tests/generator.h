@@ -3,8 +3,11 @@
 
 #pragma once
 
+#include <algorithm>
 #include <contactx/math/vec.h>
+#include <numeric>
 #include <random>
+#include <vector>
 
 /// @brief What several tests share: random input and slow references.
 namespace contactx::tests
@@ -21,6 +24,14 @@ public:
     return a + (b - a) * (_engine() / 4294967296.0);
   }
 
+  /// @brief Numbers between `a` and `b`.
+  std::vector<double> numbers(std::size_t n, double a, double b)
+  {
+    std::vector<double> values(n);
+    for (double& value : values)
+      value = (*this)(a, b);
+    return values;
+  }
   /// @brief A vector with components between `a` and `b`.
   template <int D>
   Vector<D> vector(double a, double b)
@@ -44,6 +55,24 @@ public:
 private:
   std::mt19937 _engine;
 };
+
+/// @brief n numbers in order.
+template <class T = std::int32_t>
+std::vector<T> numbered(std::size_t n, T first = 0)
+{
+  std::vector<T> all(n);
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+/// @brief Row i of values.
+template <int D>
+Vector<D> row(std::span<const double> values, std::size_t i)
+{
+  Vector<D> v;
+  std::ranges::copy(values.subspan(D * i, D), v.begin());
+  return v;
+}
 
 /// @brief Rotation and translation.
 template <int D>

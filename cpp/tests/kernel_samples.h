@@ -8,7 +8,6 @@
 #include <contactx/kernel/registry.h>
 #include <contactx/search/facet_search.h>
 #include <functional>
-#include <numeric>
 #include <ostream>
 
 namespace contactx::tests
@@ -524,4 +523,10 @@ void for_all_samples(Function&& f)
     }
   }
 }
+
+/// @brief A test of the samples of all kinds.
+#define TEST_SAMPLES(suite, name)                                              \
+  static void suite##_##name(Sample s);                                        \
+  TEST(suite, name) { for_all_samples(suite##_##name); }                       \
+  void suite##_##name(Sample s)
 } // namespace contactx::tests

@@ -24,18 +24,10 @@ struct MovedContact
                = std::make_shared<law::Frictionless>())
       : MovedContact(sheets.x, sheets.gdim)
   {
-    auto surface = search::make_master_surface(halo, sheets.master.offsets,
-                                               sheets.master.nodes);
-    auto outside = std::make_shared<search::InsideTest>(
-        halo, sheets.master.offsets, sheets.master.nodes);
-    auto master = std::make_shared<contact::NodeToSurface>(
-        halo,
-        std::make_shared<contact::SlaveNodes>(halo, sheets.slave.list(),
-                                              sheets.slave.list()),
-        surface, outside,
-        contact::PairingOptions{reach, sliding == contact::Sliding::small,
-                                false});
-    make(sheets.slave.list(), master, std::move(law), sliding);
+    make(sheets.slave.list(),
+         sheets.pairs_of<contact::NodeToSurface>(
+             halo, {reach, sliding == contact::Sliding::small, false}),
+         std::move(law), sliding);
   }
 
   /// @brief A slave sheet and an obstacle.
@@ -82,11 +74,8 @@ private:
 /// @brief A square of side 2 at a height of 0.1 above a plane.
 inline MovedContact square_above_plane()
 {
-  Scene slave(3);
-  for (const Vector<3>& p :
-       {Vector<3>{0, 0, 0.1}, {0, 2, 0.1}, {2, 0, 0.1}, {2, 2, 0.1}})
-    slave.node(p);
-  slave.facet({0, 1, 2, 3});
+  const Scene slave(3, {{0, 0, 0.1}, {0, 2, 0.1}, {2, 0, 0.1}, {2, 2, 0.1}},
+                    {{0, 1, 2, 3}});
   return MovedContact(
       slave, std::make_shared<geometry::Plane>(std::vector<double>{0, 0, 0},
                                                std::vector<double>{0, 0, 1}));

@@ -4,13 +4,9 @@
 #pragma once
 
 #include "generator.h"
-#include <algorithm>
 #include <contactx/law/law.h>
 #include <contactx/law/node_state.h>
-#include <functional>
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace contactx::tests
 {

@@ -5,7 +5,6 @@
 
 #include "generator.h"
 #include "obstacles.h"
-#include <algorithm>
 #include <contactx/contact/obstacle_pairs.h>
 #include <contactx/kernel/layout.h>
 

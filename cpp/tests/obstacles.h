@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "expect.h"
 #include <cmath>
 #include <contactx/geometry/cylinder.h>
 #include <contactx/geometry/level_set.h>
@@ -84,6 +85,38 @@ inline std::shared_ptr<geometry::Obstacle> make_obstacle(Kind kind, int gdim)
         [has_hessian = kind == Kind::level_set](std::span<const double> x,
                                                 int g, int)
         { return bump(x, g, has_hessian); });
+  }
+}
+
+/// @brief Compare gradients and curvatures at some points with differences of
+/// gaps and of unit normals.
+/// @param[in] tolerance Of curvatures, called as tolerance(geometry, point).
+template <class Tolerance>
+void expect_differences(geometry::Obstacle& obstacle,
+                        const std::vector<double>& x, int gdim, double h,
+                        Tolerance tolerance)
+{
+  const geometry::Geometry at = obstacle.evaluate(x, gdim);
+  for (int k = 0; k < gdim; ++k)
+  {
+    std::vector<double> up = x, down = x;
+    for (std::size_t i = k; i < x.size(); i += gdim)
+    {
+      up[i] += h;
+      down[i] -= h;
+    }
+    const geometry::Geometry a = obstacle.evaluate(up, gdim),
+                             b = obstacle.evaluate(down, gdim);
+    for (std::size_t i = 0; i < at.gap.size(); ++i)
+    {
+      EXPECT_NEAR(norm(vector_at(at.normal, i, gdim)), 1, 1e-14);
+      EXPECT_NEAR(at.gradient[gdim * i + k], (a.gap[i] - b.gap[i]) / (2 * h),
+                  2e-7);
+      for (std::size_t j = gdim * i; j < gdim * (i + 1); ++j)
+        EXPECT_NEAR(at.curvature[gdim * j + k],
+                    (a.normal[j] - b.normal[j]) / (2 * h), tolerance(at, i))
+            << at.gap[i];
+    }
   }
 }
 } // namespace contactx::tests

@@ -5,7 +5,6 @@
 
 #include "scene.h"
 #include <contactx/audit/passage.h>
-#include <numbers>
 
 namespace contactx::tests
 {

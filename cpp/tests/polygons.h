@@ -5,7 +5,6 @@
 
 #include "facets.h"
 #include <contactx/geometry/quadrature.h>
-#include <vector>
 
 namespace contactx::tests
 {

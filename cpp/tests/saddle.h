@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cmath>
 #include <contactx/condense/condensation.h>
 #include <contactx/condense/dependent_constraints.h>
 

@@ -4,7 +4,10 @@
 #pragma once
 
 #include "generator.h"
+#include <contactx/geometry/facets.h>
 #include <contactx/search/surface.h>
+#include <functional>
+#include <numbers>
 
 namespace contactx::tests
 {
@@ -18,11 +21,28 @@ struct Scene
 
   explicit Scene(int dimension) : gdim(dimension) {}
 
+  /// @brief Take nodes and facets.
+  Scene(int dimension, const std::vector<Vector<3>>& points,
+        const std::vector<std::vector<std::int32_t>>& facets)
+      : gdim(dimension)
+  {
+    for (const Vector<3>& p : points)
+      node(p);
+    for (const std::vector<std::int32_t>& f : facets)
+      facet(f);
+  }
+
+  /// @brief Number of all nodes.
+  std::int32_t num_nodes() const
+  {
+    return static_cast<std::int32_t>(x.size()) / gdim;
+  }
+
   /// @brief Add a node; in 2D the third coordinate is dropped.
   std::int32_t node(const Vector<3>& p)
   {
     x.insert(x.end(), p.begin(), p.begin() + gdim);
-    return static_cast<std::int32_t>(x.size()) / gdim - 1;
+    return num_nodes() - 1;
   }
 
   void facet(std::vector<std::int32_t> n)
@@ -45,14 +65,21 @@ struct Scene
 
   Vector<3> point(std::int32_t i) const { return vector_at(x, i, gdim); }
 
+  /// @brief Move all nodes: p becomes map(p).
+  template <class Map>
+  void move(Map&& map)
+  {
+    for (std::int32_t i = 0; i < num_nodes(); ++i)
+      std::copy_n(map(point(i)).begin(), gdim, &x[gdim * i]);
+  }
+
   /// @brief Add the nodes and facets of another surface.
   void join(const Scene& other)
   {
-    const auto first = static_cast<std::int32_t>(x.size()) / gdim;
+    const std::int32_t first = num_nodes(), begin = offsets.back();
     x.insert(x.end(), other.x.begin(), other.x.end());
     for (const std::int32_t node : other.nodes)
       nodes.push_back(first + node);
-    const std::int32_t begin = offsets.back();
     for (std::size_t f = 1; f < other.offsets.size(); ++f)
       offsets.push_back(begin + other.offsets[f]);
   }
@@ -62,6 +89,29 @@ struct Scene
   search::Surface surface() const { return {offsets, nodes, gdim}; }
 };
 
+/// @brief Add a facet to others, whose nodes become to(node).
+template <class To = std::identity>
+void add_facet(geometry::Facets& facets, std::span<const std::int32_t> nodes,
+               To to = {})
+{
+  for (const std::int32_t node : nodes)
+    facets.nodes.push_back(to(node));
+  facets.offsets.push_back(static_cast<std::int32_t>(facets.nodes.size()));
+}
+
+/// @brief Boundary of a regular polygon about the origin, with the body inside.
+inline Scene regular_polygon(int n, double radius)
+{
+  Scene scene(2);
+  for (int i = 0; i < n; ++i)
+  {
+    const double t = 2 * std::numbers::pi * i / n;
+    scene.node({radius * std::cos(t), radius * std::sin(t)});
+    scene.facet({i, (i + 1) % n});
+  }
+  return scene;
+}
+
 /// @brief What a grid is made of.
 enum class Cells
 {
@@ -70,16 +120,15 @@ enum class Cells
   mixed
 };
 
-/// @brief Grid of n x n cells over the unit square, its node (i, j) at
-/// position(i / n, j / n).
+/// @brief Grid of n x m cells, its node (i, j) at position(i / n, j / m).
 template <class Position>
-Scene grid(int n, Cells cells, Position position)
+Scene grid(int n, int m, Cells cells, Position position)
 {
   Scene scene(3);
-  for (int j = 0; j <= n; ++j)
+  for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i)
-      scene.node(position(double(i) / n, double(j) / n));
-  for (int j = 0; j < n; ++j)
+      scene.node(position(double(i) / n, double(j) / m));
+  for (int j = 0; j < m; ++j)
     for (int i = 0; i < n; ++i)
     {
       const int a = j * (n + 1) + i;
@@ -87,6 +136,26 @@ Scene grid(int n, Cells cells, Position position)
                   cells == Cells::triangles
                       or (cells == Cells::mixed and (i + j) % 2 == 0));
     }
+  return scene;
+}
+
+/// @brief Grid of n x n cells.
+template <class Position>
+Scene grid(int n, Cells cells, Position position)
+{
+  return grid(n, n, cells, position);
+}
+
+/// @brief Polyline of n segments, its node i at position(i / n), from left to
+/// right.
+template <class Position>
+Scene line(int n, Position position)
+{
+  Scene scene(2);
+  for (int i = 0; i <= n; ++i)
+    scene.node(position(double(i) / n));
+  for (int i = 0; i < n; ++i)
+    scene.facet({i, i + 1});
   return scene;
 }
 

@@ -6,8 +6,6 @@
 #include "scene.h"
 #include "thread_ranks.h"
 #include <contactx/contact/slave_nodes.h>
-#include <memory>
-#include <optional>
 #include <set>
 
 namespace contactx::tests
@@ -18,9 +16,8 @@ using Facets = std::optional<Cells>;
 inline const std::vector<Facets> all_facets{
     std::nullopt, Cells::triangles, Cells::quadrilaterals, Cells::mixed};
 
-/// @brief A slave surface of cells of uneven size, a paraboloid or flat, over
-/// (about) the unit square or interval.
-/// @param[in] n Number of cells an axis.
+/// @brief A slave surface of n cells of uneven size an axis, a paraboloid or
+/// flat, over (about) the unit square or interval.
 inline Scene slave_sheet(Facets facets, int n, Generator& random,
                          bool curved = true, double uneven = 0.25)
 {
@@ -36,12 +33,7 @@ inline Scene slave_sheet(Facets facets, int n, Generator& random,
   };
   if (facets)
     return grid(n, *facets, [&at](double s, double t) { return at(s, t, 2); });
-  Scene scene(2);
-  for (int i = 0; i <= n; ++i)
-    scene.node(at(double(i) / n, 0, 1));
-  for (int i = 0; i < n; ++i)
-    scene.facet({i, i + 1});
-  return scene;
+  return line(n, [&at](double s) { return at(s, 0, 1); });
 }
 
 /// @brief Unit normals of the paraboloid, or of a plane, downward.
@@ -49,7 +41,7 @@ inline std::vector<double> sheet_normals(const Scene& scene, bool curved = true)
 {
   std::vector<double> normal;
   const int last = scene.gdim - 1;
-  for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
+  for (std::int32_t i = 0; i < scene.num_nodes(); ++i)
   {
     Vector<3> n{};
     for (int k = 0; k < last; ++k)
@@ -68,7 +60,7 @@ inline std::pair<Scene, std::vector<std::int32_t>> in_bulk(const Scene& scene,
 {
   Scene bulk(scene.gdim);
   std::vector<std::int32_t> place;
-  for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
+  for (std::int32_t i = 0; i < scene.num_nodes(); ++i)
   {
     for (double others = random(0, 3); others > 1; --others)
       bulk.node(random.vector<3>(-1, 1));
@@ -84,8 +76,7 @@ inline std::pair<Scene, std::vector<std::int32_t>> in_bulk(const Scene& scene,
 /// @brief Slave nodes of a surface on one rank.
 inline std::shared_ptr<contact::SlaveNodes> slave_nodes(const Scene& scene)
 {
-  const auto nodes = std::make_shared<mesh::SerialNodes>(
-      static_cast<std::int32_t>(scene.x.size()) / scene.gdim);
+  const auto nodes = std::make_shared<mesh::SerialNodes>(scene.num_nodes());
   return std::make_shared<contact::SlaveNodes>(nodes, scene.facets(),
                                                scene.facets());
 }
@@ -111,10 +102,7 @@ struct Part
   }
 };
 
-/// @brief Part of a surface that a rank has.
-/// @param[in] whole The surface.
-/// @param[in] owner Rank of each node.
-/// @param[in] rank The rank.
+/// @brief Part of a surface that a rank has, by the rank of each node.
 inline Part part_of(const Scene& whole, const std::vector<int>& owner,
                     mesh::Ranks& rank)
 {

@@ -7,7 +7,6 @@
 #include "contact_scene.h"
 #include <contactx/mesh/bodies.h>
 #include <contactx/solve/loop.h>
-#include <optional>
 
 namespace contactx::tests
 {
@@ -16,7 +15,6 @@ namespace contactx::tests
 class LooseFields final : public solve::Fields
 {
 public:
-  /// @param[in] offsets Where each field begins, and the end.
   explicit LooseFields(std::vector<std::size_t> offsets)
       : value(offsets.back(), 0), load(value), stiffness(value.size(), 1),
         prescribed(value), size(value), fixed(value.size(), 0),
@@ -60,13 +58,11 @@ public:
     return _products;
   }
 
-  std::vector<double> value;               ///< values of now
-  std::vector<double> load;                ///< loads
-  std::vector<double> stiffness;           ///< of each value
-  std::vector<double> prescribed;          ///< Dirichlet values
-  std::vector<double> size;                ///< of the terms of each row
-  std::vector<std::int8_t> fixed;          ///< 1 where there are some
-  int residuals = 0, lifts = 0, looks = 0; ///< how often they were asked for
+  std::vector<double> value, load, stiffness; ///< values of now
+  std::vector<double> prescribed;             ///< Dirichlet values
+  std::vector<double> size;                   ///< of the terms of each row
+  std::vector<std::int8_t> fixed;             ///< 1 where there are some
+  int residuals = 0, lifts = 0, looks = 0;    ///< how often they were asked for
 
 private:
   std::vector<std::size_t> _offsets;
@@ -77,14 +73,11 @@ private:
 /// the end of which may move; the nodes of a cell are joined by springs that
 /// resist whatever moves one against the other. All arrays are in the order of
 /// this rank, which has all nodes.
-class SpringBulk final : public solve::Bulk
+class SpringBulk : public solve::Bulk
 {
 public:
-  /// @param[in] mesh Nodes of this rank.
-  /// @param[in] halo The same.
-  /// @param[in] u Displacement of all nodes.
-  /// @param[in] cells Nodes of all cells by their number in the mesh.
-  /// @param[in] width Nodes a cell.
+  /// @brief Take nodes, their displacement, and the nodes of all cells by their
+  /// numbers in the mesh, `width` each.
   SpringBulk(const WholeMesh& mesh, std::shared_ptr<mesh::Halo> halo,
              std::shared_ptr<std::vector<double>> u,
              const std::vector<std::int32_t>& cells, int width)
@@ -177,7 +170,7 @@ public:
   solve::Fields* fields() override { return others.get(); }
 
   /// @brief Product of the stiffness with displacements of all nodes.
-  std::vector<double> product(std::span<const double> field) const
+  virtual std::vector<double> product(std::span<const double> field) const
   {
     std::vector<double> force(field.size());
     for (std::size_t i = 0; i < field.size(); ++i)
@@ -204,13 +197,19 @@ public:
   int residuals = 0, lifts = 0, looks = 0; ///< how often they were asked for
   std::shared_ptr<LooseFields> others;     ///< other fields, or none
 
-private:
+protected:
   template <class T>
   std::span<const T> owned(const std::vector<T>& all) const
   {
     return std::span(all).first(std::size_t(_halo->num_owned()) * gdim());
   }
 
+  std::shared_ptr<mesh::Halo> _halo;
+  int _width;
+  std::vector<std::int32_t> _cells, _own;
+  std::vector<double> _positions, _diagonal;
+
+private:
   std::vector<double> defects() const
   {
     std::vector<double> result(u->size());
@@ -230,11 +229,7 @@ private:
                   std::size_t(gdim()) * _cells[c + b] + k);
   }
 
-  std::shared_ptr<mesh::Halo> _halo;
-  int _width;
-  std::vector<std::int32_t> _cells, _own;
-  std::vector<double> _positions, _diagonal, _products, _residual, _defect,
-      _lifted;
+  std::vector<double> _products, _residual, _defect, _lifted;
 };
 
 /// @brief Two sheets whose nodes hang on springs, the ends of which the test
@@ -289,7 +284,8 @@ struct SpringBodies
 
   /// @brief Add a contact of the sheets.
   template <class M>
-  void add(std::shared_ptr<law::Law> law,
+  void add(std::shared_ptr<law::Law> law
+           = std::make_shared<law::Frictionless>(),
            contact::Sliding sliding = contact::Sliding::finite)
   {
     contacts.push_back(scene.contact<M>(std::move(law), sliding));
@@ -363,19 +359,42 @@ struct SpringBodies
   {
     const std::size_t n = scene.u->size();
     Eigen::MatrixXd K(n, n);
-    std::vector<double> field(n);
     for (std::size_t j = 0; j < n; ++j)
     {
+      std::vector<double> field(n);
       field[j] = 1;
       K.col(j) = math::column(bulk->product(field));
-      field[j] = 0;
     }
     return K;
   }
 
+  /// @brief Jacobian of one rank by the unknowns of a system, which are
+  /// lengths.
+  Eigen::MatrixXd jacobian(const solve::System& system,
+                           const std::optional<std::vector<double>>& springs
+                           = {}) const
+  {
+    Eigen::MatrixXd J = jacobian(springs ? std::span<const double>(*springs)
+                                         : std::span<const double>());
+    const auto factors = math::column(system.factors());
+    J.rightCols(factors.size()) *= factors.asDiagonal();
+    return J;
+  }
+
+  /// @brief Take a part of a step of one rank; where it leads.
+  static std::vector<double> go(solve::System& system,
+                                std::span<const double> dx, double part = 1)
+  {
+    std::vector<double> x(system.size());
+    system.unknowns(x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] -= part * dx[i];
+    system.take(x);
+    return x;
+  }
+
   /// @brief Jacobian of one rank, with rows and columns of Dirichlet conditions
-  /// that are those of the identity.
-  /// @param[in] springs What is added to the diagonal, nothing if empty.
+  /// that are those of the identity, and springs on its diagonal.
   Eigen::MatrixXd jacobian(std::span<const double> springs = {}) const
   {
     const condense::ContactBlock contact(contacts, scene.prescribed);

@@ -75,13 +75,8 @@ struct Stepped : SpringBodies
   /// Jacobian by the unknowns, which are lengths.
   Eigen::MatrixXd matrix()
   {
-    solve::System& system = *problem().system();
-    const auto& springs = problem().loop().free_bodies().springs();
-    Eigen::MatrixXd J = jacobian(springs ? std::span<const double>(*springs)
-                                         : std::span<const double>());
-    const auto factors = math::column(system.factors());
-    J.rightCols(factors.size()) *= factors.asDiagonal();
-    return J;
+    return jacobian(*problem().system(),
+                    problem().loop().free_bodies().springs());
   }
 
   /// Iterate until a solution is found, or none is to be expected.

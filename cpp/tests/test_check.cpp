@@ -3,11 +3,7 @@
 
 #include "expect.h"
 #include <contactx/check.h>
-#include <gtest/gtest.h>
 #include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 using namespace contactx;
 using tests::refusal;

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "generator.h"
-#include <array>
-#include <cmath>
 #include <contactx/text.h>
 #include <cstdio>
 #include <gtest/gtest.h>
-#include <limits>
 
 using contactx::number_text;
 using contactx::point_text;

@@ -6,12 +6,10 @@
 #include "expect.h"
 #include <algorithm>
 #include <condition_variable>
-#include <contactx/mesh/ranks.h>
+#include <contactx/mesh/halo.h>
 #include <exception>
 #include <map>
 #include <mutex>
-#include <stdexcept>
-#include <string>
 #include <thread>
 
 /// @brief Several ranks in one process, each a thread.
@@ -133,9 +131,7 @@ private:
   int _rank;
 };
 
-/// @brief Do something on several ranks, and throw what one of them throws.
-/// @param[in] size Number of ranks.
-/// @param[in] work Called as work(ranks) by each.
+/// @brief Do work(ranks) on several ranks, and throw what one of them throws.
 template <class Work>
 void on_ranks(int size, Work work)
 {
@@ -175,9 +171,7 @@ void on_ranks(int size, Work work)
         }
 }
 
-/// @brief What some work throws on all ranks; empty if nothing.
-/// @param[in] size Number of ranks.
-/// @param[in] work Called as work(ranks) by each.
+/// @brief What work(ranks) throws on all ranks; empty if nothing.
 /// @throws std::logic_error if ranks do not throw the same.
 template <class Work>
 std::string said_on(int size, Work work)
@@ -196,17 +190,15 @@ std::string said_on(int size, Work work)
 class NumberedNodes final : public mesh::NodeMap
 {
 public:
-  /// @brief Take the nodes.
-  /// @param[in] ranks The ranks.
-  /// @param[in] numbers Number of each node on this rank, owned ones first.
-  /// @param[in] num_owned How many it owns.
+  /// @brief Take nodes by their numbers, of which the first ones are owned.
   NumberedNodes(mesh::Ranks& ranks, std::vector<std::int64_t> numbers,
                 std::int32_t num_owned)
-      : _ranks(ranks), _numbers(std::move(numbers)), _num_owned(num_owned)
+      : _ranks(dynamic_cast<ThreadRanks*>(&ranks)),
+        _numbers(std::move(numbers)), _num_owned(num_owned)
   {
   }
 
-  mesh::Ranks& ranks() const override { return _ranks; }
+  mesh::Ranks& ranks() const override { return *_ranks; }
   std::int32_t num_owned() const override { return _num_owned; }
   std::int32_t num_nodes() const override
   {
@@ -214,10 +206,11 @@ public:
   }
   const std::vector<std::int64_t>& numbers() const { return _numbers; }
 
-  /// @brief Add a node of another rank.
-  void add(std::int64_t number)
+  /// @brief Have nodes of other ranks, after the first ones of now.
+  void set_ghosts(std::size_t first, std::span<const std::int64_t> numbers)
   {
-    _numbers.push_back(number);
+    _numbers.resize(first);
+    _numbers.insert(_numbers.end(), numbers.begin(), numbers.end());
     notify();
   }
 
@@ -232,38 +225,79 @@ public:
 
   void reverse(std::span<double> values, int width) const override
   {
-    const auto numbers
-        = mesh::gathered(_ranks, std::span<const std::int64_t>(_numbers));
-    const auto all = mesh::gathered(_ranks, std::span<const double>(values));
-    std::map<std::int64_t, std::int32_t> mine;
-    for (std::int32_t i = 0; i < _num_owned; ++i)
-      mine[_numbers[i]] = i;
-    std::ranges::fill(values.first(mine.size() * width), 0.0);
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (const auto found = mine.find(numbers[i]); found != mine.end())
-        for (int k = 0; k < width; ++k)
-          values[found->second * width + k] += all[i * width + k];
+    const auto mine = places(0, _num_owned);
+    std::vector<double> sums(mine.size() * width, 0.0);
+    _ranks->show(std::pair(std::span(_numbers), values),
+                 [&](int, const auto& theirs)
+                 {
+                   const auto& [numbers, all] = theirs;
+                   for (std::size_t i = 0; i < numbers.size(); ++i)
+                     if (const auto at = mine.find(numbers[i]);
+                         at != mine.end())
+                       for (int k = 0; k < width; ++k)
+                         sums[at->second * width + k] += all[i * width + k];
+                 });
+    std::ranges::copy(sums, values.begin());
   }
 
 private:
+  std::map<std::int64_t, std::size_t> places(std::size_t begin,
+                                             std::size_t end) const
+  {
+    std::map<std::int64_t, std::size_t> result;
+    for (std::size_t i = begin; i < end; ++i)
+      result[_numbers[i]] = i;
+    return result;
+  }
+
   template <class T>
   void forward_all(std::span<T> values, int width) const
   {
-    const auto owned
-        = std::span<const std::int64_t>(_numbers).first(_num_owned);
-    const auto numbers = mesh::gathered(_ranks, owned);
-    const auto all = mesh::gathered(
-        _ranks, std::span<const T>(values).first(owned.size() * width));
-    std::map<std::int64_t, std::size_t> place;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      place[numbers[i]] = i;
-    for (std::size_t i = _num_owned; i < _numbers.size(); ++i)
-      std::copy_n(&all[place.at(_numbers[i]) * width], width,
-                  &values[i * width]);
+    const auto ghosts = places(_num_owned, _numbers.size());
+    std::vector<T> found(values.begin(), values.end());
+    _ranks->show(std::pair(std::span(_numbers).first(_num_owned), values),
+                 [&](int, const auto& theirs)
+                 {
+                   const auto& [numbers, all] = theirs;
+                   for (std::size_t i = 0; i < numbers.size(); ++i)
+                     if (const auto at = ghosts.find(numbers[i]);
+                         at != ghosts.end())
+                       std::copy_n(all.begin() + i * width, width,
+                                   found.begin() + at->second * width);
+                 });
+    std::ranges::copy(found, values.begin());
   }
 
-  mesh::Ranks& _ranks;
+  ThreadRanks* _ranks;
   std::vector<std::int64_t> _numbers;
   std::int32_t _num_owned;
+};
+
+/// @brief A bulk whose nodes all ranks know by their numbers.
+class NumberedBulk : public mesh::HaloAdapter
+{
+public:
+  NumberedBulk(mesh::Ranks& ranks, std::vector<std::int64_t> numbers,
+               std::int32_t num_owned)
+      : _map(ranks, std::move(numbers), num_owned)
+  {
+  }
+
+  mesh::Ranks& ranks() override { return _map.ranks(); }
+  void forward(std::span<double> values, int width) override
+  {
+    _map.forward(values, width);
+  }
+  void forward(std::span<std::int64_t> values, int width) override
+  {
+    _map.forward(values, width);
+  }
+  void reverse(std::span<double> values, int width) override
+  {
+    _map.reverse(values, width);
+  }
+
+protected:
+  NumberedNodes _map;
 };
 } // namespace contactx::tests

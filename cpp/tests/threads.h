@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "generator.h"
 #include "scene.h"
 #include "thread_ranks.h"
 #include <contactx/geometry/facets.h>
@@ -20,27 +19,22 @@ struct Distribution
   std::vector<std::int64_t> original; ///< in the mesh as it was made
   std::vector<std::int32_t> place;    ///< among those of its owner
 
-  /// @brief Give nodes to ranks, in any order.
-  /// @param[in] owners Owner of each node.
-  /// @param[in] num_ranks Number of ranks.
-  /// @param[in] random For the order in which the mesh was made.
+  /// @brief Give nodes to ranks; the order in which the mesh was made is
+  /// random.
   Distribution(std::vector<int> owners, int num_ranks, Generator& random)
       : num_ranks(num_ranks), owner(std::move(owners)), number(owner.size()),
         original(owner.size()), place(owner.size())
   {
     std::int64_t count = 0;
+    std::vector<std::int32_t> owned(num_ranks, 0);
     for (int r = 0; r < num_ranks; ++r)
-    {
-      std::int32_t n = 0;
       for (std::size_t i = 0; i < owner.size(); ++i)
         if (owner[i] == r)
         {
           number[i] = count++;
-          place[i] = n++;
+          place[i] = owned[r]++;
         }
-    }
-    for (std::size_t i = 0; i < original.size(); ++i)
-      original[i] = static_cast<std::int64_t>(i);
+    original = numbered<std::int64_t>(owner.size());
     for (std::size_t i = original.size(); i-- > 1;)
       std::swap(original[i], original[static_cast<std::size_t>(
                                  random(0, static_cast<double>(i)))]);
@@ -48,18 +42,15 @@ struct Distribution
 };
 
 /// @brief The bulk of a rank whose nodes are distributed.
-class ThreadBulk final : public mesh::HaloAdapter
+class ThreadBulk final : public NumberedBulk
 {
 public:
-  /// @brief Take the nodes.
-  /// @param[in] nodes All nodes.
-  /// @param[in] ranks This rank.
-  /// @param[in] ghosts Nodes of other ranks that the bulk has.
-  /// @param[in] displacement Of all nodes of the mesh (shape=(n, gdim)).
+  /// @brief Take the rank's own nodes and ghosts; displacements are those of
+  /// all nodes of the mesh.
   ThreadBulk(const Distribution& nodes, ThreadRanks& ranks,
              const std::vector<std::int32_t>& ghosts,
              std::vector<double> displacement, int gdim)
-      : _nodes(nodes), _ranks(ranks), _gdim(gdim),
+      : NumberedBulk(ranks, {}, 0), _nodes(nodes), _gdim(gdim),
         _displacement(std::move(displacement))
   {
     for (std::size_t i = 0; i < nodes.owner.size(); ++i)
@@ -68,16 +59,19 @@ public:
     _num_owned = static_cast<std::int32_t>(_here.size());
     _here.insert(_here.end(), ghosts.begin(), ghosts.end());
     _num_bulk = _here.size();
+    std::vector<std::int64_t> numbers;
+    for (const std::int32_t node : _here)
+      numbers.push_back(nodes.number[node]);
+    _map = NumberedNodes(ranks, std::move(numbers), _num_owned);
   }
 
-  /// @brief What the halo is made of.
-  /// @param[in] x Positions of all nodes of the mesh.
+  /// @brief What the halo is made of, from positions of all nodes of the mesh.
   mesh::BulkNodes bulk(std::span<const double> x) const
   {
     mesh::BulkNodes result{_gdim, _num_owned, {}, {}, {}, {}};
     for (const std::int32_t node : _here)
     {
-      const bool is_ghost = _nodes.owner[node] != _ranks.rank();
+      const bool is_ghost = _nodes.owner[node] != _map.ranks().rank();
       result.numbers.push_back(_nodes.number[node]);
       result.owners.push_back(_nodes.owner[node]);
       // What a rank need not know of its ghosts it asks their owners for
@@ -87,8 +81,6 @@ public:
     }
     return result;
   }
-
-  mesh::Ranks& ranks() override { return _ranks; }
 
   void set_ghosts(std::span<const std::int64_t> numbers,
                   std::span<const std::int32_t> owners) override
@@ -102,65 +94,17 @@ public:
         throw std::logic_error("a ghost of another owner");
       _here.push_back(node);
     }
-  }
-
-  void forward(std::span<double> values, int width) override
-  {
-    forward_all(values, width);
-  }
-  void forward(std::span<std::int64_t> values, int width) override
-  {
-    forward_all(values, width);
-  }
-
-  void reverse(std::span<double> values, int width) override
-  {
-    std::vector<double> sums(values.begin(),
-                             values.begin() + _num_owned * width);
-    _ranks.show(std::pair(values, std::span(_here)),
-                [&](int rank, const auto& theirs)
-                {
-                  if (rank == _ranks.rank())
-                    return;
-                  for (std::size_t i = 0; i < theirs.second.size(); ++i)
-                    if (_nodes.owner[theirs.second[i]] == _ranks.rank())
-                      for (int k = 0; k < width; ++k)
-                        sums[_nodes.place[theirs.second[i]] * width + k]
-                            += theirs.first[i * width + k];
-                });
-    std::ranges::copy(sums, values.begin());
+    _map.set_ghosts(_num_bulk, numbers);
   }
 
   void displacement(std::span<double> values) const override
   {
     for (std::size_t i = 0; i < _here.size(); ++i)
-      for (int k = 0; k < _gdim; ++k)
-        values[i * _gdim + k] = _displacement[_here[i] * _gdim + k];
+      std::copy_n(&_displacement[_here[i] * _gdim], _gdim, &values[i * _gdim]);
   }
-
-  void changed() override { ++num_changes; }
-
-  int num_changes = 0;
 
 private:
-  template <class T>
-  void forward_all(std::span<T> values, int width)
-  {
-    std::vector<T> found(values.begin(), values.end());
-    _ranks.show(values,
-                [&](int rank, std::span<T> theirs)
-                {
-                  for (std::size_t i = _num_owned; i < _here.size(); ++i)
-                    if (_nodes.owner[_here[i]] == rank)
-                      std::copy_n(theirs.begin()
-                                      + _nodes.place[_here[i]] * width,
-                                  width, found.begin() + i * width);
-                });
-    std::ranges::copy(found, values.begin());
-  }
-
   const Distribution& _nodes;
-  ThreadRanks& _ranks;
   int _gdim;
   std::vector<double> _displacement;
   std::int32_t _num_owned;
@@ -168,12 +112,8 @@ private:
   std::vector<std::int32_t> _here; // nodes of the mesh by their number here
 };
 
-/// @brief Nodes of a rank.
-/// @param[in] nodes All nodes.
-/// @param[in] ranks This rank.
-/// @param[in] ghosts Nodes of other ranks that the bulk has, each maybe often.
-/// @param[in] x Positions of all nodes of the mesh.
-/// @param[in] displacement Of all nodes of the mesh.
+/// @brief Nodes of a rank; positions and displacements are those of all nodes
+/// of the mesh, ghosts may be there several times.
 inline std::shared_ptr<mesh::Halo>
 thread_halo(const Distribution& nodes, ThreadRanks& ranks,
             std::span<const std::int32_t> ghosts, std::span<const double> x,
@@ -190,12 +130,8 @@ thread_halo(const Distribution& nodes, ThreadRanks& ranks,
 class DistributedScene
 {
 public:
-  /// @brief Distribute nodes and facets.
-  /// @param[in] scene Facets of all ranks.
-  /// @param[in] num_ranks Number of ranks.
-  /// @param[in] seed Of how they are distributed and numbered.
-  /// @param[in] scattered Whether anything may be anywhere; else ranks have
-  /// pieces along the first axis.
+  /// @brief Distribute nodes and facets: anywhere if they are scattered, else
+  /// in pieces along the first axis.
   DistributedScene(const Scene& scene, int num_ranks, unsigned seed,
                    bool scattered)
       : scene(scene), _random(seed),
@@ -213,9 +149,8 @@ public:
     }
   }
 
-  /// @brief Nodes of a rank, its facets' among them.
-  /// @param[in] ranks The rank.
-  /// @param[in] displacement Of all nodes of the mesh, none for zero.
+  /// @brief Nodes of a rank, its facets' among them; they have the displacement
+  /// of all nodes of the mesh, or none.
   std::shared_ptr<mesh::Halo> halo(ThreadRanks& ranks,
                                    std::vector<double> displacement = {}) const
   {
@@ -237,13 +172,9 @@ public:
     geometry::Facets result;
     for (std::int32_t f = begin; f < end; ++f)
       if (facet_rank[f] == halo.ranks().rank())
-      {
-        for (const std::int32_t node : scene.facets()[f])
-          result.nodes.push_back(
-              halo.find(std::vector{nodes.number[node]}).front());
-        result.offsets.push_back(
-            static_cast<std::int32_t>(result.nodes.size()));
-      }
+        add_facet(
+            result, scene.facets()[f], [&](std::int32_t node)
+            { return halo.find(std::vector{nodes.number[node]}).front(); });
     return result;
   }
 

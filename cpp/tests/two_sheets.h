@@ -17,12 +17,8 @@ struct TwoSheets
   geometry::Facets slave, master;
   std::int32_t num_slaves; ///< the slave's nodes come first
 
-  /// @brief Create them over squares.
-  /// @param[in] dim Geometric dimension.
-  /// @param[in] height Height of the slave over the master, which is at zero.
-  /// @param[in] cells What they are made of.
-  /// @param[in] high Where the slave ends; it begins at zero, and the master is
-  /// from -1 to 2.
+  /// @brief Create a slave over [0, high]^2 at a height over the master, which
+  /// is over [-1, 2]^2 at zero.
   explicit TwoSheets(int dim, double height = 0, Cells cells = Cells::mixed,
                      double high = 1)
       : gdim(dim)
@@ -42,6 +38,12 @@ struct TwoSheets
   std::int32_t num_nodes() const
   {
     return static_cast<std::int32_t>(x.size()) / gdim;
+  }
+
+  /// @brief Status of slave nodes that are all open.
+  std::vector<std::int8_t> open() const
+  {
+    return std::vector<std::int8_t>(num_slaves, 0);
   }
 
   /// @brief Positions after each node p has gone to way(p, is_slave).
@@ -77,22 +79,30 @@ struct TwoSheets
   std::shared_ptr<mesh::Halo> halo; ///< that of the last pairs
 
   /// @brief Pairs of these surfaces, searched for.
+  /// @brief Pairs of these surfaces, searched for.
   template <class M>
   std::shared_ptr<M> pairs(bool is_small = false, bool measures_slip = true)
   {
     halo = mesh::serial_halo(x, gdim);
-    auto surface
-        = search::make_master_surface(halo, master.offsets, master.nodes);
-    auto outside = std::make_shared<search::InsideTest>(halo, master.offsets,
-                                                        master.nodes);
-    auto made = std::make_shared<M>(
-        halo,
-        std::make_shared<contact::SlaveNodes>(halo, slave.list(), slave.list()),
-        surface, outside,
-        contact::PairingOptions{1.0, is_small, measures_slip});
-    made->search(x, std::vector<std::int8_t>(num_slaves, 0));
+    auto made = pairs_of<M>(halo, {1.0, is_small, measures_slip});
+    made->search(x, open());
     made->begin_step();
     return made;
+  }
+
+  /// @brief The same on other nodes, not searched for.
+  template <class M>
+  std::shared_ptr<M> pairs_of(std::shared_ptr<mesh::Halo> nodes,
+                              contact::PairingOptions options) const
+  {
+    return std::make_shared<M>(
+        nodes,
+        std::make_shared<contact::SlaveNodes>(nodes, slave.list(),
+                                              slave.list()),
+        search::make_master_surface(nodes, master.offsets, master.nodes),
+        std::make_shared<search::InsideTest>(nodes, master.offsets,
+                                             master.nodes),
+        options);
   }
 
   /// @brief Turned about the origin, in the plane of the first and last axis.

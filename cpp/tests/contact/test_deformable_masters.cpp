@@ -3,14 +3,9 @@
 
 #include "expect.h"
 #include "two_sheets.h"
-#include <cmath>
 #include <contactx/contact/mobility.h>
 #include <contactx/contact/slip_weights.h>
 #include <contactx/kernel/layout.h>
-#include <gtest/gtest.h>
-#include <limits>
-#include <numbers>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -42,60 +37,50 @@ std::vector<double> movement(const kernel::Weights& weights, std::size_t n,
   return moved;
 }
 
-TYPED_TEST(DeformableMasters, AllThatIsInFrontIsPaired)
+TYPED_TEST_2D_3D(DeformableMasters, AllThatIsInFrontIsPaired, gdim)
 {
-  for (int gdim : {2, 3})
-  {
-    TwoSheets sheets(gdim, 0.01);
-    const auto pairs = sheets.template pairs<TypeParam>();
-    EXPECT_EQ(pairs->paired(), ones(sheets.num_slaves));
-    const auto normals = pairs->normals();
-    for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
-      for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(normals[3 * i + k], k == gdim - 1, 1e-12);
-    EXPECT_TRUE(pairs->frozen_pairs().empty());
-  }
+  TwoSheets sheets(gdim, 0.01);
+  const auto pairs = sheets.template pairs<TypeParam>();
+  EXPECT_EQ(pairs->paired(), ones(sheets.num_slaves));
+  const auto normals = pairs->normals();
+  for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(normals[3 * i + k], k == gdim - 1, 1e-12);
+  EXPECT_TRUE(pairs->frozen_pairs().empty());
 }
 
-TYPED_TEST(DeformableMasters, WeightsReproduceLinearFields)
+TYPED_TEST_2D_3D(DeformableMasters, WeightsReproduceLinearFields, gdim)
 {
-  for (int gdim : {2, 3})
-  {
-    TwoSheets sheets(gdim);
-    const auto pairs = sheets.template pairs<TypeParam>();
-    // Slave and master are at the same place: no linear field moves them
-    const auto u = sheets.moved(
-        [](const Vector<3>& p, bool)
-        { return Vector<3>{1 + p[0] - 2 * p[1], 3 * p[0] + p[2], 2 - p[1]}; });
-    for (double m :
-         movement(pairs->weights(), sheets.num_slaves, u, sheets.gdim))
-      EXPECT_NEAR(m, 0, 1e-12);
-  }
+  TwoSheets sheets(gdim);
+  const auto pairs = sheets.template pairs<TypeParam>();
+  // Slave and master are at the same place: no linear field moves them
+  const auto u = sheets.moved(
+      [](const Vector<3>& p, bool)
+      { return Vector<3>{1 + p[0] - 2 * p[1], 3 * p[0] + p[2], 2 - p[1]}; });
+  for (double m : movement(pairs->weights(), sheets.num_slaves, u, sheets.gdim))
+    EXPECT_NEAR(m, 0, 1e-12);
 }
 
-TYPED_TEST(DeformableMasters, AMasterTurnsWithItsFacets)
+TYPED_TEST_2D_3D(DeformableMasters, AMasterTurnsWithItsFacets, gdim)
 {
-  for (int gdim : {2, 3})
-  {
-    TwoSheets sheets(gdim, 0.01);
-    const auto pairs = sheets.template pairs<TypeParam>();
-    EXPECT_FALSE(pairs->turn(sheets.x));
-    const double angle = 0.4;
-    const auto turn = pairs->turn(sheets.turned(angle));
-    ASSERT_TRUE(turn);
-    const int z = gdim - 1;
-    for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
-      for (int r = 0; r < gdim; ++r)
-        for (int c = 0; c < gdim; ++c)
-        {
-          double expected = r == c;
-          if ((r == 0 or r == z) and (c == 0 or c == z))
-            expected = r == c   ? std::cos(angle)
-                       : r == 0 ? -std::sin(angle)
-                                : std::sin(angle);
-          EXPECT_NEAR((*turn)[gdim * (gdim * i + r) + c], expected, 1e-12);
-        }
-  }
+  TwoSheets sheets(gdim, 0.01);
+  const auto pairs = sheets.template pairs<TypeParam>();
+  EXPECT_FALSE(pairs->turn(sheets.x));
+  const double angle = 0.4;
+  const auto turn = pairs->turn(sheets.turned(angle));
+  ASSERT_TRUE(turn);
+  const int z = gdim - 1;
+  for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
+    for (int r = 0; r < gdim; ++r)
+      for (int c = 0; c < gdim; ++c)
+      {
+        double expected = r == c;
+        if ((r == 0 or r == z) and (c == 0 or c == z))
+          expected = r == c   ? std::cos(angle)
+                     : r == 0 ? -std::sin(angle)
+                              : std::sin(angle);
+        EXPECT_NEAR((*turn)[gdim * (gdim * i + r) + c], expected, 1e-12);
+      }
 }
 
 TYPED_TEST(DeformableMasters, ComplianceIsThatOfTheFacetsInFront)
@@ -133,7 +118,7 @@ TYPED_TEST(DeformableMasters, WhatIsSavedComesBack)
   TwoSheets sheets(3, 0.01);
   const auto pairs = sheets.template pairs<TypeParam>();
   const auto moved = sheets.aside(0.07);
-  pairs->search(moved, std::vector<std::int8_t>(sheets.num_slaves, 0));
+  pairs->search(moved, sheets.open());
   sheets.halo->set_start(sheets.moved_by(moved));
   pairs->begin_step();
   const auto saved = pairs->save();
@@ -148,7 +133,7 @@ TYPED_TEST(DeformableMasters, WhatIsSavedComesBack)
     EXPECT_EQ(found[g].data, expected[g].data);
     EXPECT_EQ(found[g].slip, expected[g].slip);
   }
-  EXPECT_THROW(other->load({}), std::invalid_argument);
+  EXPECT_REFUSED(other->load({}));
 }
 
 TYPED_TEST(DeformableMasters, ReachMustBePositiveAndSlavesOfTheDimension)
@@ -167,10 +152,10 @@ TYPED_TEST(DeformableMasters, ReachMustBePositiveAndSlavesOfTheDimension)
   };
   EXPECT_NO_THROW(make(slaves_of(sheets.slave), 1));
   for (double reach : {0.0, -1.0, std::nan("")})
-    EXPECT_THROW(make(slaves_of(sheets.slave), reach), std::invalid_argument);
+    EXPECT_REFUSED(make(slaves_of(sheets.slave), reach));
   for (const auto& slaves :
        {slaves_of(line.slave), std::shared_ptr<SlaveNodes>()})
-    EXPECT_THROW(make(slaves, 1), std::invalid_argument);
+    EXPECT_REFUSED(make(slaves, 1));
 }
 
 TEST(NodeToSurface, ANodeThatFallsAsideSlipsFromWhereItTouches)
@@ -188,9 +173,9 @@ TEST(NodeToSurface, ANodeThatFallsAsideSlipsFromWhereItTouches)
           return p;
         });
     if (not is_small)
-      pairs->search(fallen, std::vector<std::int8_t>(sheets.num_slaves, 0));
+      pairs->search(fallen, sheets.open());
     const std::vector<double> offset(sheets.num_slaves, 0);
-    std::vector<std::int8_t> which(sheets.num_slaves, 0);
+    auto which = sheets.open();
     which[1] = 1;
     pairs->touch(which, fallen, sheets.moved_by(fallen), offset);
     int found = 0;
@@ -235,34 +220,27 @@ TEST(NodeTie, TheOffsetMakesItLonger)
     }
   // Only the first search counts
   const auto before = tie->pairs();
-  EXPECT_EQ(tie->search(sheets.aside(0.5),
-                        std::vector<std::int8_t>(sheets.num_slaves, 0)),
-            0);
+  EXPECT_EQ(tie->search(sheets.aside(0.5), sheets.open()), 0);
   EXPECT_TRUE(tie->pairs()[0].same(before[0]));
 }
 
-TEST(SurfaceToSurface, TheAreaIsWhatTheMasterCovers)
+TEST_2D_3D(SurfaceToSurface, TheAreaIsWhatTheMasterCovers, gdim)
 {
-  for (int gdim : {2, 3})
-  {
-    // Half of the slave is beyond the master's end at 2
-    TwoSheets sheets(gdim, 0.01, Cells::quadrilaterals);
-    const auto pairs = sheets.pairs<SurfaceToSurface>();
-    const auto whole
-        = geometry::nodal_areas(sheets.slave.list(), sheets.x, gdim);
-    const std::vector<double> all(whole.begin(),
-                                  whole.begin() + sheets.num_slaves);
-    expect_near(pairs->area(all), all, 1e-12);
-    pairs->search(sheets.aside(1.5),
-                  std::vector<std::int8_t>(sheets.num_slaves, 0));
-    double sum = 0;
-    const auto paired = pairs->paired();
-    const auto area = pairs->area(all);
-    for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
-      sum += paired[i] ? area[i] : 0.0;
-    EXPECT_NEAR(sum, 0.5, 1e-12);
-    EXPECT_NE(paired, ones(sheets.num_slaves));
-  }
+  // Half of the slave is beyond the master's end at 2
+  TwoSheets sheets(gdim, 0.01, Cells::quadrilaterals);
+  const auto pairs = sheets.pairs<SurfaceToSurface>();
+  const auto whole = geometry::nodal_areas(sheets.slave.list(), sheets.x, gdim);
+  const std::vector<double> all(whole.begin(),
+                                whole.begin() + sheets.num_slaves);
+  expect_near(pairs->area(all), all, 1e-12);
+  pairs->search(sheets.aside(1.5), sheets.open());
+  double sum = 0;
+  const auto paired = pairs->paired();
+  const auto area = pairs->area(all);
+  for (std::int32_t i = 0; i < sheets.num_slaves; ++i)
+    sum += paired[i] ? area[i] : 0.0;
+  EXPECT_NEAR(sum, 0.5, 1e-12);
+  EXPECT_NE(paired, ones(sheets.num_slaves));
 }
 
 TEST(SurfaceToSurface, SlipIsMeasuredWithTheWeightsOfTheStart)
@@ -276,8 +254,7 @@ TEST(SurfaceToSurface, SlipIsMeasuredWithTheWeightsOfTheStart)
   };
   EXPECT_GT(count(pairs->pairs()), 0);
   const auto start = pairs->pairs().back();
-  pairs->search(sheets.aside(0.3),
-                std::vector<std::int8_t>(sheets.num_slaves, 0));
+  pairs->search(sheets.aside(0.3), sheets.open());
   EXPECT_TRUE(pairs->pairs().back().same(start));
   const auto other = sheets.pairs<SurfaceToSurface>(false, false);
   EXPECT_EQ(count(other->pairs()), 0);
@@ -385,67 +362,62 @@ struct Weighted
   }
 };
 
-TEST(SlipWeights, PutMastersRightBeforeTheirNodeInAnyFrame)
+TEST_2D_3D(SlipWeights, PutMastersRightBeforeTheirNodeInAnyFrame, gdim)
 {
-  for (int gdim : {2, 3})
-    for (double angle : {0.0, 0.7, 1.5})
+  for (double angle : {0.0, 0.7, 1.5})
+  {
+    const Weighted w(gdim, angle);
+    const auto n = w.normals(angle);
+    const auto before = w.distances(w.mortar);
+    const Mortar found = slip_weights(w.mortar, w.sides, before, n, w.x, gdim);
+    const auto after = w.distances(found);
+    const std::size_t i = w.sides.numbers(0)[0];
+    double along = 0, was = 0;
+    for (int k = 0; k < gdim; ++k)
     {
-      const Weighted w(gdim, angle);
-      const auto n = w.normals(angle);
-      const auto before = w.distances(w.mortar);
-      const Mortar found
-          = slip_weights(w.mortar, w.sides, before, n, w.x, gdim);
-      const auto after = w.distances(found);
-      const std::size_t i = w.sides.numbers(0)[0];
-      double along = 0, was = 0;
-      for (int k = 0; k < gdim; ++k)
+      along += n[3 * i + k] * after[gdim * i + k];
+      was += n[3 * i + k] * before[gdim * i + k];
+    }
+    double across = 0, offset = 0;
+    for (int k = 0; k < gdim; ++k)
+    {
+      across = std::max(across,
+                        std::abs(after[gdim * i + k] - along * n[3 * i + k]));
+      offset = std::max(offset,
+                        std::abs(before[gdim * i + k] - was * n[3 * i + k]));
+    }
+    EXPECT_GT(offset, 0.1);
+    EXPECT_LT(across, 1e-12);
+    EXPECT_NEAR(along, was, 1e-12); // masters are in a plane
+    const auto sum = [](const std::vector<double>& values)
+    { return std::accumulate(values.begin(), values.end(), 0.0); };
+    EXPECT_NEAR(sum(found.weight), 1, 1e-12);
+    // The same weights in any frame
+    const Weighted flat(gdim, 0);
+    const Mortar upright
+        = slip_weights(flat.mortar, flat.sides, flat.distances(flat.mortar),
+                       flat.normals(0), flat.x, gdim);
+    for (std::size_t e = 0; e < found.weight.size(); ++e)
+    {
+      EXPECT_NEAR(found.weight[e], upright.weight[e], 1e-12);
+      if (w.mortar.weight[e] == 0)
       {
-        along += n[3 * i + k] * after[gdim * i + k];
-        was += n[3 * i + k] * before[gdim * i + k];
-      }
-      double across = 0, offset = 0;
-      for (int k = 0; k < gdim; ++k)
-      {
-        across = std::max(across,
-                          std::abs(after[gdim * i + k] - along * n[3 * i + k]));
-        offset = std::max(offset,
-                          std::abs(before[gdim * i + k] - was * n[3 * i + k]));
-      }
-      EXPECT_GT(offset, 0.1);
-      EXPECT_LT(across, 1e-12);
-      EXPECT_NEAR(along, was, 1e-12); // masters are in a plane
-      const auto sum = [](const std::vector<double>& values)
-      { return std::accumulate(values.begin(), values.end(), 0.0); };
-      EXPECT_NEAR(sum(found.weight), 1, 1e-12);
-      // The same weights in any frame
-      const Weighted flat(gdim, 0);
-      const Mortar upright
-          = slip_weights(flat.mortar, flat.sides, flat.distances(flat.mortar),
-                         flat.normals(0), flat.x, gdim);
-      for (std::size_t e = 0; e < found.weight.size(); ++e)
-      {
-        EXPECT_NEAR(found.weight[e], upright.weight[e], 1e-12);
-        if (w.mortar.weight[e] == 0)
-        {
-          EXPECT_EQ(found.weight[e], 0);
-        }
+        EXPECT_EQ(found.weight[e], 0);
       }
     }
+  }
 }
 
-TEST(SlipWeights, LeaveWhatIsRightBeforeTheirNode)
+TEST_2D_3D(SlipWeights, LeaveWhatIsRightBeforeTheirNode, gdim)
 {
-  for (int gdim : {2, 3})
-  {
-    const Weighted w(gdim, 0.7);
-    const std::vector<double> n = w.normals(0.7);
-    std::vector<double> d(gdim * w.sides.size(), 0);
-    for (std::size_t i = 0; i < w.sides.size(); ++i)
-      for (int k = 0; k < gdim; ++k)
-        d[gdim * i + k] = 0.3 * n[3 * i + k];
-    const Mortar found = slip_weights(w.mortar, w.sides, d, n, w.x, gdim);
-    expect_near(found.weight, w.mortar.weight, 1e-14);
-  }
+  const Weighted w(gdim, 0.7);
+  const std::vector<double> n = w.normals(0.7);
+  std::vector<double> d(gdim * w.sides.size(), 0);
+  for (std::size_t i = 0; i < w.sides.size(); ++i)
+    for (int k = 0; k < gdim; ++k)
+      d[gdim * i + k] = 0.3 * n[3 * i + k];
+  const Mortar found = slip_weights(w.mortar, w.sides, d, n, w.x, gdim);
+  expect_near(found.weight, w.mortar.weight, 1e-14);
 }
 
 TEST(SlipWeights, LeaveMastersInOneLineAlone)

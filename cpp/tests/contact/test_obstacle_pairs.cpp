@@ -4,9 +4,7 @@
 #include "obstacle_scene.h"
 #include <contactx/contact/obstacle_tie.h>
 #include <contactx/contact/touching.h>
-#include <gtest/gtest.h>
 #include <numbers>
-#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -100,58 +98,54 @@ void expect_derivative(ObstacleMaster& master, const FacingNodes& scene,
   }
 }
 
-TEST(ObstacleMaster, TheDerivativeIsThatOfTheSlip)
+TEST_2D_3D(ObstacleMaster, TheDerivativeIsThatOfTheSlip, gdim)
 {
-  for (int gdim : {2, 3})
-    for (Kind kind : kinds(gdim))
-      for (bool frozen : {false, true})
-      {
-        SCOPED_TRACE(testing::Message() << gdim << " " << int(kind));
-        const auto o = make_obstacle(kind, gdim);
-        const FacingNodes scene(*o, gdim);
-        expect_derivative(*make(scene, o), scene, frozen);
-      }
-}
-
-TEST(ObstacleMaster, SlipIsTheTangentialPartOfTheWay)
-{
-  for (int gdim : {2, 3})
-    for (Kind kind : kinds(gdim))
+  for (Kind kind : kinds(gdim))
+    for (bool frozen : {false, true})
     {
+      SCOPED_TRACE(testing::Message() << gdim << " " << int(kind));
       const auto o = make_obstacle(kind, gdim);
       const FacingNodes scene(*o, gdim);
-      const auto master = make(scene, o);
-      const auto x = strayed(scene, 0.3);
-      const Given at = given(*master, scene, x);
-      EXPECT_LE(difference(at.slip, across(scene, scene.x, x, at.normal)),
-                1e-14);
-      EXPECT_LE(largest(given(*master, scene, scene.x).slip), 1e-15);
+      expect_derivative(*make(scene, o), scene, frozen);
     }
 }
 
-TEST(ObstacleMaster, FrozenTheGapIsLinear)
+TEST_2D_3D(ObstacleMaster, SlipIsTheTangentialPartOfTheWay, gdim)
 {
-  for (int gdim : {2, 3})
-    for (Kind kind : kinds(gdim))
+  for (Kind kind : kinds(gdim))
+  {
+    const auto o = make_obstacle(kind, gdim);
+    const FacingNodes scene(*o, gdim);
+    const auto master = make(scene, o);
+    const auto x = strayed(scene, 0.3);
+    const Given at = given(*master, scene, x);
+    EXPECT_LE(difference(at.slip, across(scene, scene.x, x, at.normal)), 1e-14);
+    EXPECT_LE(largest(given(*master, scene, scene.x).slip), 1e-15);
+  }
+}
+
+TEST_2D_3D(ObstacleMaster, FrozenTheGapIsLinear, gdim)
+{
+  for (Kind kind : kinds(gdim))
+  {
+    const auto o = make_obstacle(kind, gdim);
+    const FacingNodes scene(*o, gdim);
+    const auto master = make(scene, o);
+    const auto x = strayed(scene, 0.3);
+    const Given at = given(*master, scene, x, true);
+    const auto seen
+        = o->evaluate(std::span(scene.x).first(scene.n * gdim), gdim);
+    for (int i = 0; i < scene.n; ++i)
     {
-      const auto o = make_obstacle(kind, gdim);
-      const FacingNodes scene(*o, gdim);
-      const auto master = make(scene, o);
-      const auto x = strayed(scene, 0.3);
-      const Given at = given(*master, scene, x, true);
-      const auto seen
-          = o->evaluate(std::span(scene.x).first(scene.n * gdim), gdim);
-      for (int i = 0; i < scene.n; ++i)
-      {
-        double gap = seen.gap[i];
-        for (int k = gdim * i; k < gdim * (i + 1); ++k)
-          gap += seen.gradient[k] * (x[k] - scene.x[k]);
-        EXPECT_NEAR(at.gap[i], gap, 1e-13 * (1 + std::abs(gap)));
-      }
-      EXPECT_EQ(at.normal, seen.normal);
-      // Not frozen, it is the obstacle's
-      EXPECT_EQ(given(*master, scene, x).gap, master->inside(x));
+      double gap = seen.gap[i];
+      for (int k = gdim * i; k < gdim * (i + 1); ++k)
+        gap += seen.gradient[k] * (x[k] - scene.x[k]);
+      EXPECT_NEAR(at.gap[i], gap, 1e-13 * (1 + std::abs(gap)));
     }
+    EXPECT_EQ(at.normal, seen.normal);
+    // Not frozen, it is the obstacle's
+    EXPECT_EQ(given(*master, scene, x).gap, master->inside(x));
+  }
 }
 
 TEST(ObstacleMaster, TheNextStepStartsWhereTheLastOneEnded)
@@ -233,6 +227,7 @@ TEST(ObstacleMaster, WhatAnObstacleCarriesDoesNotSlip)
     const auto master = make(scene, moving.o);
     const Given before = given(*master, scene, scene.x);
     moving.move();
+    expect_derivative(*master, scene, false);
     const auto x = moving.carried(scene);
     const Given at = given(*master, scene, x);
     EXPECT_LE(largest(at.slip), 1e-14);
@@ -252,18 +247,6 @@ TEST(ObstacleMaster, WhatAnObstacleCarriesDoesNotSlip)
     master->begin_step();
     EXPECT_LE(largest(given(*master, scene, x).slip), 1e-14);
     EXPECT_LE(largest(master->turn(x).value()), 1);
-  }
-}
-
-TEST(ObstacleMaster, TheDerivativeHoldsOnAnObstacleThatMoves)
-{
-  for (const auto& [kind, gdim] : movable)
-  {
-    Moving moving(kind, gdim);
-    const FacingNodes scene(*moving.o, gdim);
-    const auto master = make(scene, moving.o);
-    moving.move();
-    expect_derivative(*master, scene, false);
   }
 }
 
@@ -308,16 +291,6 @@ TEST(ObstacleMaster, FirstTouchIsWhereTheWayMeetsThePlane)
         EXPECT_NEAR(at.slip[gdim * i + k], 0, 1e-14);
     }
   }
-}
-
-TEST(ObstacleMaster, AHalfTurnHasNoShortestWay)
-{
-  auto plane = std::make_shared<geometry::Plane>(std::vector<double>{0, 0},
-                                                 std::vector<double>{1, 0});
-  const FacingNodes scene(*plane, 2);
-  const auto master = make(scene, plane);
-  plane->place({0, 0}, {-1, 0});
-  EXPECT_THROW(given(*master, scene, scene.x), std::invalid_argument);
 }
 
 TEST(ObstacleMaster, NothingIsTangentialWithoutFriction)
@@ -444,7 +417,7 @@ TEST(ObstacleMaster, IsAsItWasAfterLoading)
   const auto before = first->save();
   auto bad = saved;
   std::get<std::vector<double>>(bad[5].values).pop_back();
-  EXPECT_THROW(first->load(bad), std::invalid_argument);
+  EXPECT_REFUSED(first->load(bad));
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(first->save()[i].values, before[i].values);
 }
@@ -456,14 +429,12 @@ TEST(ObstacleMaster, RefusesWhatDoesNotFit)
   const auto made = [&](std::vector<double> x, int gdim)
   { ObstacleMaster(o, s.slaves, x, gdim, infinity, true); };
   EXPECT_NO_THROW(made(s.x, 2));
-  EXPECT_THROW(made({0, 1}, 2), std::invalid_argument);
+  EXPECT_REFUSED(made({0, 1}, 2));
   // Facets of two nodes are none in 3D
-  EXPECT_THROW(made(s.x, 3), std::invalid_argument);
-  EXPECT_THROW(made(s.x, 4), std::invalid_argument);
-  EXPECT_THROW(ObstacleMaster(o, nullptr, s.x, 2, infinity, true),
-               std::invalid_argument);
-  EXPECT_THROW(make(s, o)->search(std::vector<double>{0, 1}, {}),
-               std::invalid_argument);
+  EXPECT_REFUSED(made(s.x, 3));
+  EXPECT_REFUSED(made(s.x, 4));
+  EXPECT_REFUSED(ObstacleMaster(o, nullptr, s.x, 2, infinity, true));
+  EXPECT_REFUSED(make(s, o)->search(std::vector<double>{0, 1}, {}));
 }
 
 std::unique_ptr<ObstacleTie> tied(const FacingNodes& scene,
@@ -475,40 +446,37 @@ std::unique_ptr<ObstacleTie> tied(const FacingNodes& scene,
   return tie;
 }
 
-TEST(ObstacleTie, MovesWithItsObstacleOverSteps)
+TEST_2D_3D(ObstacleTie, MovesWithItsObstacleOverSteps, gdim)
 {
-  for (int gdim : {2, 3})
+  Moving moving(Kind::plane, gdim);
+  const FacingNodes scene(*moving.o, gdim);
+  const auto tie = tied(scene, moving.o);
+  EXPECT_LE(largest(given(*tie, scene, scene.x).slip), 1e-15);
+  moving.move();
+  auto x = moving.carried(scene);
+  std::vector<double> d;
+  for (std::size_t i = 0; i < x.size(); ++i)
   {
-    Moving moving(Kind::plane, gdim);
-    const FacingNodes scene(*moving.o, gdim);
-    const auto tie = tied(scene, moving.o);
-    EXPECT_LE(largest(given(*tie, scene, scene.x).slip), 1e-15);
-    moving.move();
-    auto x = moving.carried(scene);
-    std::vector<double> d;
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      x[i] += 0.1 + 0.1 * (i % gdim);
-      if (i < std::size_t(scene.n * gdim))
-        d.push_back(0.1 + 0.1 * (i % gdim));
-    }
-    const Given at = given(*tie, scene, x);
-    EXPECT_LE(difference(at.slip, d), 1e-14);
-    for (int i = 0; i < scene.n * gdim; ++i)
-      for (int k = 0; k < gdim; ++k)
-        EXPECT_EQ(at.derivative[gdim * i + k], i % gdim == k);
-    tie->accept(x);
-    tie->begin_step();
-    // The tie's place is that of the reference for ever
-    tie->search(x, std::vector<std::int8_t>(scene.n));
-    EXPECT_LE(difference(given(*tie, scene, x).slip, d), 1e-14);
-    // Another one goes on from what was saved
-    const auto other = tied(scene, moving.o);
-    EXPECT_GE(difference(given(*other, scene, x).slip, d), 0.1);
-    other->load(tie->save());
-    other->search(x, std::vector<std::int8_t>(scene.n));
-    EXPECT_EQ(given(*other, scene, x).slip, given(*tie, scene, x).slip);
+    x[i] += 0.1 + 0.1 * (i % gdim);
+    if (i < std::size_t(scene.n * gdim))
+      d.push_back(0.1 + 0.1 * (i % gdim));
   }
+  const Given at = given(*tie, scene, x);
+  EXPECT_LE(difference(at.slip, d), 1e-14);
+  for (int i = 0; i < scene.n * gdim; ++i)
+    for (int k = 0; k < gdim; ++k)
+      EXPECT_EQ(at.derivative[gdim * i + k], i % gdim == k);
+  tie->accept(x);
+  tie->begin_step();
+  // The tie's place is that of the reference for ever
+  tie->search(x, std::vector<std::int8_t>(scene.n));
+  EXPECT_LE(difference(given(*tie, scene, x).slip, d), 1e-14);
+  // Another one goes on from what was saved
+  const auto other = tied(scene, moving.o);
+  EXPECT_GE(difference(given(*other, scene, x).slip, d), 0.1);
+  other->load(tie->save());
+  other->search(x, std::vector<std::int8_t>(scene.n));
+  EXPECT_EQ(given(*other, scene, x).slip, given(*tie, scene, x).slip);
 }
 
 /// A floor whose material goes along with a velocity that changes.
@@ -577,23 +545,20 @@ TEST(ObstacleMaster, ABeltDragsByItsVelocity)
   EXPECT_NEAR(given(*late, scene, scene.x).slip[0], 1.5, 1e-14);
 }
 
-TEST(ObstacleTie, AnOffsetMakesItLongerAlongTheNormalThatTurns)
+TEST_2D_3D(ObstacleTie, AnOffsetMakesItLongerAlongTheNormalThatTurns, gdim)
 {
-  for (int gdim : {2, 3})
-  {
-    Moving moving(Kind::plane, gdim);
-    const FacingNodes scene(*moving.o, gdim);
-    const auto tie = tied(scene, moving.o);
-    std::vector<double> offset;
-    for (int i = 0; i < scene.n; ++i)
-      offset.push_back(-0.2 + 0.05 * i);
-    moving.move();
-    auto x = moving.carried(scene);
-    const Given at = given(*tie, scene, x);
-    for (int i = 0; i < scene.n * gdim; ++i)
-      x[i] += offset[i / gdim] * at.normal[i];
-    EXPECT_LE(largest(given(*tie, scene, x, false, offset).slip), 1e-14);
-    EXPECT_GE(largest(given(*tie, scene, x).slip), 0.1);
-  }
+  Moving moving(Kind::plane, gdim);
+  const FacingNodes scene(*moving.o, gdim);
+  const auto tie = tied(scene, moving.o);
+  std::vector<double> offset;
+  for (int i = 0; i < scene.n; ++i)
+    offset.push_back(-0.2 + 0.05 * i);
+  moving.move();
+  auto x = moving.carried(scene);
+  const Given at = given(*tie, scene, x);
+  for (int i = 0; i < scene.n * gdim; ++i)
+    x[i] += offset[i / gdim] * at.normal[i];
+  EXPECT_LE(largest(given(*tie, scene, x, false, offset).slip), 1e-14);
+  EXPECT_GE(largest(given(*tie, scene, x).slip), 0.1);
 }
 } // namespace

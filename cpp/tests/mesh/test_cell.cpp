@@ -1,17 +1,13 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "generator.h"
-#include <algorithm>
-#include <array>
 #include <contactx/math/vec.h>
 #include <contactx/mesh/cell.h>
 #include <contactx/mesh/nodes.h>
 #include <contactx/mesh/triquadratic.h>
-#include <gtest/gtest.h>
-#include <numeric>
 #include <set>
-#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::mesh;
@@ -140,14 +136,8 @@ TEST_P(OfCells, LinearFunctionsAreThoseOfTheVertices)
 TEST_P(OfCells, OtherDegreesAreRefused)
 {
   for (const int degree : {0, 3})
-    EXPECT_THROW(num_nodes(GetParam(), degree), std::invalid_argument);
+    EXPECT_REFUSED(num_nodes(GetParam(), degree));
 }
-
-INSTANTIATE_TEST_SUITE_P(AllKinds, OfCells,
-                         testing::Values(CellType::triangle,
-                                         CellType::quadrilateral,
-                                         CellType::tetrahedron,
-                                         CellType::hexahedron));
 
 TEST(CellTypes, AreFoundByName)
 {
@@ -155,7 +145,7 @@ TEST(CellTypes, AreFoundByName)
   EXPECT_EQ(cell_type("hexahedron"), CellType::hexahedron);
   EXPECT_EQ(num_nodes(CellType::interval, 2), 3);
   EXPECT_TRUE(facet_vertices(CellType::interval).empty());
-  EXPECT_THROW(cell_type("prism"), std::invalid_argument);
+  EXPECT_REFUSED(cell_type("prism"));
 }
 
 /// A polynomial by its coefficients of powers.
@@ -226,8 +216,6 @@ TEST(Triquadratic, HalvesAreTheSamePolynomial)
   }
 }
 
-using OfNodes = testing::TestWithParam<CellType>;
-
 /// One cell of degree 2, its points those of order 1 or 2 and a little off.
 struct OneCell
 {
@@ -239,14 +227,9 @@ struct OneCell
   OneCell(CellType cell, int degree_of_mesh, bool is_mirrored = false)
       : type(cell), order(degree_of_mesh)
   {
-    const int dim = dimension(cell), n = num_vertices(cell);
     for (const auto& vertices : node_vertices(cell, order))
     {
-      Vector<3> at{};
-      for (const int v : vertices)
-        for (int k = 0; k < dim; ++k)
-          at[k] += (n == dim + 1 ? v == k + 1 : v >> k & 1)
-                   / static_cast<double>(vertices.size());
+      Vector<3> at = place_of(cell, vertices);
       // No two points have the same coordinates
       at[0] += 0.1 * at[1] + 0.01 * static_cast<double>(points.size());
       if (is_mirrored)
@@ -267,7 +250,7 @@ struct OneCell
   std::int32_t size() const { return static_cast<std::int32_t>(nodes.size()); }
 };
 
-TEST_P(OfNodes, AreWhereTheMeshHasThemOrInTheMiddleOfVertices)
+TEST_P(OfCells, AreWhereTheMeshHasThemOrInTheMiddleOfVertices)
 {
   const CellType cell = GetParam();
   const int dim = dimension(cell);
@@ -293,7 +276,7 @@ TEST_P(OfNodes, AreWhereTheMeshHasThemOrInTheMiddleOfVertices)
   }
 }
 
-TEST_P(OfNodes, HaveNumbersThatDoNotDependOnWhereACellBeginsToCount)
+TEST_P(OfCells, HaveNumbersThatDoNotDependOnWhereACellBeginsToCount)
 {
   const CellType cell = GetParam();
   const OneCell one(cell, 1);
@@ -327,7 +310,7 @@ TEST_P(OfNodes, HaveNumbersThatDoNotDependOnWhereACellBeginsToCount)
   }
 }
 
-TEST_P(OfNodes, LevelsAreThoseOfWhatTheyAreTheMiddleOf)
+TEST_P(OfCells, LevelsAreThoseOfWhatTheyAreTheMiddleOf)
 {
   const CellType cell = GetParam();
   const OneCell one(cell, 1);
@@ -341,7 +324,7 @@ TEST_P(OfNodes, LevelsAreThoseOfWhatTheyAreTheMiddleOf)
   EXPECT_TRUE(node_levels({cell, 1, linear}, one.size()).empty());
 }
 
-TEST_P(OfNodes, FacetsPointOutOfTheirCellWhicheverWayItIsRound)
+TEST_P(OfCells, FacetsPointOutOfTheirCellWhicheverWayItIsRound)
 {
   const CellType cell = GetParam();
   const int dim = dimension(cell);
@@ -376,32 +359,25 @@ TEST_P(OfNodes, FacetsPointOutOfTheirCellWhicheverWayItIsRound)
     }
 }
 
-TEST_P(OfNodes, SizesAndNumbersThatDoNotFitAreRefused)
+TEST_P(OfCells, SizesAndNumbersThatDoNotFitAreRefused)
 {
   const OneCell one(GetParam(), 1);
   const Geometry geometry = one.geometry();
-  EXPECT_THROW(reference_positions(one.cells(), one.size() - 1, geometry),
-               std::invalid_argument);
+  EXPECT_REFUSED(reference_positions(one.cells(), one.size() - 1, geometry));
   Geometry other = geometry;
   other.x = other.x.first(3);
-  EXPECT_THROW(reference_positions(one.cells(), one.size(), other),
-               std::invalid_argument);
+  EXPECT_REFUSED(reference_positions(one.cells(), one.size(), other));
   other = geometry;
   other.degree = 2;
-  EXPECT_THROW(reference_positions(one.cells(), one.size(), other),
-               std::invalid_argument);
+  EXPECT_REFUSED(reference_positions(one.cells(), one.size(), other));
   const std::vector<std::int32_t> none, first{0}, beyond{99};
-  EXPECT_THROW(facets(one.cells(), first, beyond, geometry),
-               std::invalid_argument);
-  EXPECT_THROW(facets(one.cells(), beyond, first, geometry),
-               std::invalid_argument);
-  EXPECT_THROW(facets(one.cells(), first, none, geometry),
-               std::invalid_argument);
-  EXPECT_THROW(original_nodes(one.cells(), one.size(), geometry, {}, 1),
-               std::invalid_argument);
+  EXPECT_REFUSED(facets(one.cells(), first, beyond, geometry));
+  EXPECT_REFUSED(facets(one.cells(), beyond, first, geometry));
+  EXPECT_REFUSED(facets(one.cells(), first, none, geometry));
+  EXPECT_REFUSED(original_nodes(one.cells(), one.size(), geometry, {}, 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(AllKinds, OfNodes,
+INSTANTIATE_TEST_SUITE_P(AllKinds, OfCells,
                          testing::Values(CellType::triangle,
                                          CellType::quadrilateral,
                                          CellType::tetrahedron,

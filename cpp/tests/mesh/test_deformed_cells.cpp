@@ -4,7 +4,6 @@
 #include "deformed_reference.h"
 #include "expect.h"
 #include <contactx/mesh/deformed_cells.h>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::mesh;
@@ -57,9 +56,8 @@ Matrix<D> random_matrix(Generator& random)
   return a;
 }
 
-TYPED_TEST(DeformedCellsOf, RigidMotionsAndNone)
+TYPED_TEST_OF(DeformedCellsOf, RigidMotionsAndNone, C)
 {
-  using C = TypeParam;
   const std::vector<double> x(C::gdim, 0);
   const auto empty = mesh::deformed_cells({}, C::nodes, x, x, C::gdim);
   EXPECT_EQ(empty.smallest, infinity);
@@ -81,29 +79,8 @@ TYPED_TEST(DeformedCellsOf, RigidMotionsAndNone)
   }
 }
 
-TYPED_TEST(DeformedCellsOf, HalfATurn)
+TYPED_TEST_OF(DeformedCellsOf, MirrorsAndWhatIsFlatOrAPoint, C)
 {
-  using C = TypeParam;
-  Generator random(3);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    // The axis of a plane is normal to it
-    const auto found
-        = look(scattered<C>(random, 10,
-                            [axis](auto X, int)
-                            {
-                              for (int k = 0; k < C::gdim; ++k)
-                                X[k] *= C::gdim == 3 and k == axis ? 0 : -2;
-                              return X;
-                            }));
-    EXPECT_NEAR(found.smallest, 1, 1e-13);
-    EXPECT_EQ(found.inverted, 0);
-  }
-}
-
-TYPED_TEST(DeformedCellsOf, MirrorsAndWhatIsFlatOrAPoint)
-{
-  using C = TypeParam;
   Generator random(4);
   const auto point = look(
       scattered<C>(random, 10, [](const auto& X, int) { return -1. * X; }));
@@ -127,9 +104,8 @@ TYPED_TEST(DeformedCellsOf, MirrorsAndWhatIsFlatOrAPoint)
     }
 }
 
-TYPED_TEST(DeformedCellsOf, HomogeneousGradients)
+TYPED_TEST_OF(DeformedCellsOf, HomogeneousGradients, C)
 {
-  using C = TypeParam;
   Generator random(6);
   int inverted = 0;
   for (int i = 0; i < 100; ++i)
@@ -145,9 +121,8 @@ TYPED_TEST(DeformedCellsOf, HomogeneousGradients)
   EXPECT_LT(inverted, 70);
 }
 
-TYPED_TEST(DeformedCellsOf, AgreesWithDenseSamples)
+TYPED_TEST_OF(DeformedCellsOf, AgreesWithDenseSamples, C)
 {
-  using C = TypeParam;
   Generator random(7);
   int inverted = 0;
   for (int i = 0; i < 400; ++i)
@@ -175,9 +150,8 @@ TYPED_TEST(DeformedCellsOf, AgreesWithDenseSamples)
   EXPECT_LT(inverted, 360);
 }
 
-TYPED_TEST(DeformedCellsOf, TheWorstOfSeveral)
+TYPED_TEST_OF(DeformedCellsOf, TheWorstOfSeveral, C)
 {
-  using C = TypeParam;
   const std::array stretches{0.9, -0.3, 0.5, -0.7, 0.0, -0.2, 2.0};
   SampledCells<C> cells;
   for (const double s : stretches)
@@ -196,9 +170,8 @@ TYPED_TEST(DeformedCellsOf, TheWorstOfSeveral)
   EXPECT_EQ(found.inverted, 4);
 }
 
-TYPED_TEST(DeformedCellsOf, ScalesAndTranslations)
+TYPED_TEST_OF(DeformedCellsOf, ScalesAndTranslations, C)
 {
-  using C = TypeParam;
   Generator random(8);
   for (int i = 0; i < 20; ++i)
   {
@@ -232,9 +205,8 @@ TYPED_TEST(DeformedCellsOf, ScalesAndTranslations)
   }
 }
 
-TYPED_TEST(DeformedCellsOf, SmallDisplacementsFarFromTheOrigin)
+TYPED_TEST_OF(DeformedCellsOf, SmallDisplacementsFarFromTheOrigin, C)
 {
-  using C = TypeParam;
   // Of u = 1e-9 X, X + u would keep seven digits at X = 1000
   SampledCells<C> cells;
   cells.add(
@@ -248,9 +220,8 @@ TYPED_TEST(DeformedCellsOf, SmallDisplacementsFarFromTheOrigin)
   EXPECT_NEAR(look(cells).smallest - 1, C::gdim * 1e-9, 1e-15);
 }
 
-TYPED_TEST(DeformedCellsOf, NoNumbers)
+TYPED_TEST_OF(DeformedCellsOf, NoNumbers, C)
 {
-  using C = TypeParam;
   for (const double bad : {std::nan(""), infinity, -infinity})
     for (int at = 0; at < C::nodes * C::gdim; ++at)
     {
@@ -266,9 +237,8 @@ TYPED_TEST(DeformedCellsOf, NoNumbers)
     }
 }
 
-TYPED_TEST(DeformedCellsOf, ReferenceWithoutVolume)
+TYPED_TEST_OF(DeformedCellsOf, ReferenceWithoutVolume, C)
 {
-  using C = TypeParam;
   SampledCells<C> cells;
   const auto add = [&cells](double height)
   {

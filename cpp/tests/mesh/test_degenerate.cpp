@@ -3,13 +3,10 @@
 
 #include "generator.h"
 #include "thread_ranks.h"
-#include <cmath>
 #include <contactx/math/vec.h>
 #include <contactx/mesh/degenerate.h>
 #include <contactx/mesh/extent.h>
 #include <contactx/mesh/straight.h>
-#include <gtest/gtest.h>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::tests;

@@ -3,7 +3,6 @@
 
 #include "blocks.h"
 #include <contactx/mesh/shared_nodes.h>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::tests;
@@ -46,26 +45,23 @@ TEST_P(SharedNodes, AreThoseOfBothSurfaces)
   blocks.add(4, {0, 0, 0}, {1, 1, 1});
   const Side top = blocks.side(0, 2, true), side = blocks.side(0, 0, false);
   const DistributedBlocks all(blocks, GetParam(), true);
-  on_ranks(GetParam(),
-           [&](ThreadRanks& ranks)
-           {
-             const RankBlocks mine(all, ranks);
-             const geometry::Facets a = mine.own(top), b = mine.own(side);
-             const auto shared
-                 = mesh::shared_nodes(*mine.halo, a.list(), b.list());
-             const auto is_edge = mesh::edge_nodes(*mine.halo, a.list());
-             ASSERT_EQ(std::ssize(shared), mine.halo->num_nodes());
-             ASSERT_EQ(std::ssize(is_edge), mine.halo->num_owned());
-             const auto x = mine.halo->reference();
-             for (std::size_t i = 0; i < shared.size(); ++i)
-               EXPECT_EQ(shared[i], x[3 * i] == 0 and x[3 * i + 2] == 1);
-             const auto is_end
-                 = [](double value) { return value == 0 or value == 1; };
-             for (std::size_t i = 0; i < is_edge.size(); ++i)
-               EXPECT_EQ(is_edge[i],
-                         x[3 * i + 2] == 1
-                             and (is_end(x[3 * i]) or is_end(x[3 * i + 1])));
-           });
+  const auto work = [&](ThreadRanks& ranks)
+  {
+    const RankBlocks mine(all, ranks);
+    const geometry::Facets a = mine.own(top), b = mine.own(side);
+    const auto shared = mesh::shared_nodes(*mine.halo, a.list(), b.list());
+    const auto is_edge = mesh::edge_nodes(*mine.halo, a.list());
+    ASSERT_EQ(std::ssize(shared), mine.halo->num_nodes());
+    ASSERT_EQ(std::ssize(is_edge), mine.halo->num_owned());
+    const auto x = mine.halo->reference();
+    for (std::size_t i = 0; i < shared.size(); ++i)
+      EXPECT_EQ(shared[i], x[3 * i] == 0 and x[3 * i + 2] == 1);
+    const auto is_end = [](double value) { return value == 0 or value == 1; };
+    for (std::size_t i = 0; i < is_edge.size(); ++i)
+      EXPECT_EQ(is_edge[i], x[3 * i + 2] == 1
+                                and (is_end(x[3 * i]) or is_end(x[3 * i + 1])));
+  };
+  on_ranks(GetParam(), work);
 }
 
 TEST_P(SharedNodes, TheTipOfACrackMayBeShared)

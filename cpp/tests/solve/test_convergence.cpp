@@ -1,9 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "generator.h"
 #include "spring_bodies.h"
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::tests;
@@ -24,7 +22,7 @@ struct Row
   std::shared_ptr<solve::System> system;
   std::shared_ptr<solve::Convergence> convergence;
 
-  /// @param[in] cells Nodes of its cells, two each.
+  /// The nodes of its cells are two each.
   explicit Row(std::vector<std::int32_t> cells = {0, 1, 1, 2}, int n = 3,
                mesh::Ranks* ranks = nullptr)
       : mesh(n, ranks), u(std::make_shared<std::vector<double>>(2 * n))

@@ -6,14 +6,13 @@
 #include <contactx/solve/balance_guard.h>
 #include <contactx/solve/cycle_guard.h>
 #include <contactx/solve/frozen_pairs.h>
-#include <gtest/gtest.h>
 #include <set>
 
 using contactx::contact::HiddenGap;
-using contactx::solve::BalanceGuard;
+using namespace contactx;
 using namespace contactx::solve;
 using namespace contactx::tests;
-using namespace contactx;
+using contact::HiddenGap;
 
 namespace
 {

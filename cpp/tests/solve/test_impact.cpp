@@ -3,10 +3,7 @@
 
 #include "contact_scene.h"
 #include "obstacle_scene.h"
-#include <cmath>
 #include <contactx/solve/impact.h>
-#include <gtest/gtest.h>
-#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -106,122 +103,113 @@ double along(std::span<const double> v, std::span<const double> normals, int g,
 }
 } // namespace
 
-TYPED_TEST(Impacts, FrictionlessNodesDoNotApproachAndAreNotPulled)
+TYPED_TEST_2D_3D(Impacts, FrictionlessNodesDoNotApproachAndAreNotPulled, dim)
 {
-  for (const int dim : {2, 3})
+  MovingScene s(dim);
+  s.start<TypeParam>(std::make_shared<law::Frictionless>());
+  const std::vector<double> old = s.velocity;
+  const double kinetic = s.kinetic();
+  solve::Impact impact(s.scene.halo, {s.contact});
+  impact.correct(dt, s.velocity, s.solve);
+  EXPECT_LE(s.kinetic(), kinetic);
+  const auto r = s.relative();
+  const auto normals = s.contact->master()->normals();
+  const auto& P = impact.impulses().front();
+  int held = 0, left = 0;
+  for (std::int32_t i = 0; i < s.contact->nodes()->num_nodes(); ++i)
   {
-    MovingScene s(dim);
-    s.start<TypeParam>(std::make_shared<law::Frictionless>());
-    const std::vector<double> old = s.velocity;
-    const double kinetic = s.kinetic();
-    solve::Impact impact(s.scene.halo, {s.contact});
-    impact.correct(dt, s.velocity, s.solve);
-    EXPECT_LE(s.kinetic(), kinetic);
-    const auto r = s.relative();
-    const auto normals = s.contact->master()->normals();
-    const auto& P = impact.impulses().front();
-    int held = 0, left = 0;
-    for (std::int32_t i = 0; i < s.contact->nodes()->num_nodes(); ++i)
+    const double speed = along(r, normals, dim, i);
+    const double pull = along(P, normals, dim, i);
+    if (not s.contact->nodes()->closed(i))
     {
-      const double speed = along(r, normals, dim, i);
-      const double pull = along(P, normals, dim, i);
-      if (not s.contact->nodes()->closed(i))
-      {
-        EXPECT_EQ(pull, 0);
-        continue;
-      }
-      EXPECT_GE(pull, -1e-13);
-      EXPECT_GE(speed, -1e-12);
-      EXPECT_NEAR(pull > 1e-13 ? speed : 0, 0, 1e-12);
-      (pull > 1e-13 ? held : left) += 1;
+      EXPECT_EQ(pull, 0);
+      continue;
     }
-    EXPECT_GT(held, 0);
-    EXPECT_GT(left, 0);
-    // Impulses of a pair sum to zero
+    EXPECT_GE(pull, -1e-13);
+    EXPECT_GE(speed, -1e-12);
+    EXPECT_NEAR(pull > 1e-13 ? speed : 0, 0, 1e-12);
+    (pull > 1e-13 ? held : left) += 1;
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_GT(left, 0);
+  // Impulses of a pair sum to zero
+  for (int k = 0; k < dim; ++k)
+  {
+    double change = 0;
+    for (std::size_t i = 0; i < s.mass.size(); ++i)
+      change += s.mass[i] * (s.velocity[dim * i + k] - old[dim * i + k]);
+    EXPECT_NEAR(change, 0, 1e-12);
+  }
+}
+
+TYPED_TEST_2D_3D(Impacts, ImpulsesActAsForcesDo, dim)
+{
+  MovingScene s(dim);
+  s.start<TypeParam>(coulomb(s.scene.slaves->owned().size(), 0.3));
+  const std::vector<double> old = s.velocity;
+  law::NodeState& nodes = *s.contact->nodes();
+  const std::vector<double> given = nodes.multiplier;
+  solve::Impact impact(s.scene.halo, {s.contact});
+  impact.correct(dt, s.velocity, s.solve);
+  const auto& P = impact.impulses().front();
+  for (std::size_t j = 0; j < P.size(); ++j)
+    if (nodes.closed(j / dim))
+    {
+      nodes.multiplier[j] = P[j] / (dt * nodes.area[j / dim]) - given[j];
+      EXPECT_NEAR(impact.corrections().front()[j],
+                  dt * nodes.area[j / dim] * nodes.multiplier[j], 1e-13);
+    }
+  std::vector<double> b(s.velocity.size(), 0);
+  s.contact->add_residual(b);
+  for (std::size_t j = 0; j < b.size(); ++j)
+    EXPECT_NEAR(s.mass[j / dim] * (s.velocity[j] - old[j]), -dt * b[j], 1e-11);
+}
+
+TYPED_TEST_2D_3D(Impacts, StickingNodesStopAndFrictionFollowsTheNormalImpulse,
+                 dim)
+{
+  MovingScene s(dim);
+  s.start<TypeParam>(coulomb(s.scene.slaves->owned().size(), 0.3), 20);
+  law::NodeState& nodes = *s.contact->nodes();
+  // Those that slip have a traction along the surface, too
+  for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+    if (nodes.status[i] == law::slip)
+    {
+      const double p = nodes.pressure(i);
+      const double* n = &nodes.normal[dim * i];
+      const double size = std::hypot(n[0], n[dim - 1]);
+      nodes.multiplier[dim * i] += 0.3 * p * n[dim - 1] / size;
+      nodes.multiplier[dim * i + dim - 1] -= 0.3 * p * n[0] / size;
+    }
+  solve::Impact impact(s.scene.halo, {s.contact});
+  impact.correct(dt, s.velocity, s.solve);
+  const auto r = s.relative();
+  const auto normals = s.contact->master()->normals();
+  const auto& P = impact.impulses().front();
+  int sticking = 0, slipping = 0;
+  for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
+  {
+    const double pull = along(P, normals, dim, i);
+    double size = 0;
     for (int k = 0; k < dim; ++k)
+      size += P[dim * i + k] * P[dim * i + k];
+    if (not nodes.closed(i) or size == 0)
+      continue;
+    if (nodes.status[i] == law::stick)
     {
-      double change = 0;
-      for (std::size_t i = 0; i < s.mass.size(); ++i)
-        change += s.mass[i] * (s.velocity[dim * i + k] - old[dim * i + k]);
-      EXPECT_NEAR(change, 0, 1e-12);
-    }
-  }
-}
-
-TYPED_TEST(Impacts, ImpulsesActAsForcesDo)
-{
-  for (const int dim : {2, 3})
-  {
-    MovingScene s(dim);
-    s.start<TypeParam>(coulomb(s.scene.slaves->owned().size(), 0.3));
-    const std::vector<double> old = s.velocity;
-    law::NodeState& nodes = *s.contact->nodes();
-    const std::vector<double> given = nodes.multiplier;
-    solve::Impact impact(s.scene.halo, {s.contact});
-    impact.correct(dt, s.velocity, s.solve);
-    const auto& P = impact.impulses().front();
-    for (std::size_t j = 0; j < P.size(); ++j)
-      if (nodes.closed(j / dim))
-      {
-        nodes.multiplier[j] = P[j] / (dt * nodes.area[j / dim]) - given[j];
-        EXPECT_NEAR(impact.corrections().front()[j],
-                    dt * nodes.area[j / dim] * nodes.multiplier[j], 1e-13);
-      }
-    std::vector<double> b(s.velocity.size(), 0);
-    s.contact->add_residual(b);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      EXPECT_NEAR(s.mass[j / dim] * (s.velocity[j] - old[j]), -dt * b[j],
-                  1e-11);
-  }
-}
-
-TYPED_TEST(Impacts, StickingNodesStopAndFrictionFollowsTheNormalImpulse)
-{
-  for (const int dim : {2, 3})
-  {
-    MovingScene s(dim);
-    s.start<TypeParam>(coulomb(s.scene.slaves->owned().size(), 0.3), 20);
-    law::NodeState& nodes = *s.contact->nodes();
-    // Those that slip have a traction along the surface, too
-    for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
-      if (nodes.status[i] == law::slip)
-      {
-        const double p = nodes.pressure(i);
-        const double* n = &nodes.normal[dim * i];
-        const double size = std::hypot(n[0], n[dim - 1]);
-        nodes.multiplier[dim * i] += 0.3 * p * n[dim - 1] / size;
-        nodes.multiplier[dim * i + dim - 1] -= 0.3 * p * n[0] / size;
-      }
-    solve::Impact impact(s.scene.halo, {s.contact});
-    impact.correct(dt, s.velocity, s.solve);
-    const auto r = s.relative();
-    const auto normals = s.contact->master()->normals();
-    const auto& P = impact.impulses().front();
-    int sticking = 0, slipping = 0;
-    for (std::int32_t i = 0; i < nodes.num_nodes(); ++i)
-    {
-      const double pull = along(P, normals, dim, i);
-      double size = 0;
       for (int k = 0; k < dim; ++k)
-        size += P[dim * i + k] * P[dim * i + k];
-      if (not nodes.closed(i) or size == 0)
-        continue;
-      if (nodes.status[i] == law::stick)
-      {
-        for (int k = 0; k < dim; ++k)
-          EXPECT_NEAR(r[dim * i + k], 0, 1e-12);
-        ++sticking;
-      }
-      else
-      {
-        EXPECT_NEAR(along(r, normals, dim, i), 0, 1e-12);
-        EXPECT_NEAR(std::sqrt(size - pull * pull), 0.3 * pull, 1e-10);
-        ++slipping;
-      }
+        EXPECT_NEAR(r[dim * i + k], 0, 1e-12);
+      ++sticking;
     }
-    EXPECT_GT(sticking, 0);
-    EXPECT_GT(slipping, 0);
+    else
+    {
+      EXPECT_NEAR(along(r, normals, dim, i), 0, 1e-12);
+      EXPECT_NEAR(std::sqrt(size - pull * pull), 0.3 * pull, 1e-10);
+      ++slipping;
+    }
   }
+  EXPECT_GT(sticking, 0);
+  EXPECT_GT(slipping, 0);
 }
 
 TYPED_TEST(Impacts, TiedNodesMayBePulled)
@@ -242,12 +230,12 @@ TEST(Impact, WrongArgumentsAreRefused)
 {
   MovingScene s(2);
   s.start<NodeToSurface>(std::make_shared<law::Frictionless>());
-  EXPECT_THROW(solve::Impact(nullptr, {s.contact}), std::invalid_argument);
-  EXPECT_THROW(solve::Impact(s.scene.halo, {nullptr}), std::invalid_argument);
+  EXPECT_REFUSED(solve::Impact(nullptr, {s.contact}));
+  EXPECT_REFUSED(solve::Impact(s.scene.halo, {nullptr}));
   solve::Impact impact(s.scene.halo, {s.contact});
-  EXPECT_THROW(impact.correct(0, s.velocity, s.solve), std::invalid_argument);
+  EXPECT_REFUSED(impact.correct(0, s.velocity, s.solve));
   std::vector<double> few(3);
-  EXPECT_THROW(impact.correct(dt, few, s.solve), std::invalid_argument);
+  EXPECT_REFUSED(impact.correct(dt, few, s.solve));
 }
 
 TEST(ObstacleMaster, MovementIsThatOfTheObstacle)
@@ -272,32 +260,29 @@ TEST(ObstacleMaster, MovementIsThatOfTheObstacle)
   }
 }
 
-TYPED_TEST(Impacts, ArrivalIsTheWayOfNodesThatWereOpen)
+TYPED_TEST_2D_3D(Impacts, ArrivalIsTheWayOfNodesThatWereOpen, dim)
 {
-  for (const int dim : {2, 3})
-  {
-    MovingScene s(dim);
-    s.start<TypeParam>(std::make_shared<law::Frictionless>());
-    law::NodeState& nodes = *s.contact->nodes();
-    solve::Impact impact(s.scene.halo, {s.contact});
-    const std::vector<double> sizes(s.scene.halo->num_owned(), 0.5);
-    EXPECT_THROW(impact.arrival(s.velocity, sizes), std::invalid_argument);
-    // Nothing arrives that was there
-    impact.begin_step();
-    EXPECT_EQ(impact.arrival(s.velocity, sizes), 0);
+  MovingScene s(dim);
+  s.start<TypeParam>(std::make_shared<law::Frictionless>());
+  law::NodeState& nodes = *s.contact->nodes();
+  solve::Impact impact(s.scene.halo, {s.contact});
+  const std::vector<double> sizes(s.scene.halo->num_owned(), 0.5);
+  EXPECT_REFUSED(impact.arrival(s.velocity, sizes));
+  // Nothing arrives that was there
+  impact.begin_step();
+  EXPECT_EQ(impact.arrival(s.velocity, sizes), 0);
 
-    const std::vector<std::int8_t> closed = nodes.status;
-    std::int32_t first = 0;
-    while (not nodes.closed(first))
-      ++first;
-    nodes.status[first] = law::open;
-    impact.begin_step();
-    nodes.status = closed;
-    const double way
-        = along(s.relative(), s.contact->master()->normals(), dim, first);
-    EXPECT_NEAR(impact.arrival(s.velocity, sizes), std::abs(way) / 0.5, 1e-14);
+  const std::vector<std::int8_t> closed = nodes.status;
+  std::int32_t first = 0;
+  while (not nodes.closed(first))
+    ++first;
+  nodes.status[first] = law::open;
+  impact.begin_step();
+  nodes.status = closed;
+  const double way
+      = along(s.relative(), s.contact->master()->normals(), dim, first);
+  EXPECT_NEAR(impact.arrival(s.velocity, sizes), std::abs(way) / 0.5, 1e-14);
 
-    EXPECT_THROW(impact.arrival(s.velocity, {}), std::invalid_argument);
-    EXPECT_THROW(impact.arrival({}, sizes), std::invalid_argument);
-  }
+  EXPECT_REFUSED(impact.arrival(s.velocity, {}));
+  EXPECT_REFUSED(impact.arrival({}, sizes));
 }

@@ -3,7 +3,6 @@
 
 #include "hiding_pairs.h"
 #include "spring_bodies.h"
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -44,23 +43,15 @@ struct Newton : SpringBodies
   }
 
   /// Take a part of a step.
-  void take(std::vector<double> x, std::span<const double> dx, double part)
+  void take(std::span<const double> dx, double part)
   {
-    for (std::size_t i = 0; i < x.size(); ++i)
-      x[i] -= part * dx[i];
-    system().take(x);
-    iterates.push_back(std::move(x));
+    iterates.push_back(go(system(), dx, part));
   }
 
   /// Jacobian by the unknowns, which are lengths.
   Eigen::MatrixXd matrix() const
   {
-    const auto& springs = loop->free_bodies().springs();
-    Eigen::MatrixXd J = jacobian(springs ? std::span<const double>(*springs)
-                                         : std::span<const double>());
-    const auto factors = math::column(system().factors());
-    J.rightCols(factors.size()) *= factors.asDiagonal();
-    return J;
+    return jacobian(system(), loop->free_bodies().springs());
   }
 
   /// Solve a step as the loop's description says.
@@ -76,12 +67,12 @@ struct Newton : SpringBodies
       length.begin(loop->size_of(dx), loop->within_cells(dx));
       while (length.has_trial())
       {
-        take(x, dx, length.part());
-        iterates.pop_back();
+        go(system(), dx, length.part());
         system().residual(b);
+        system().take(x);
         length.judge(loop->size_of(tests::solution(J, b)));
       }
-      take(x, dx, length.part());
+      take(dx, length.part());
       verdict = judge();
     }
     if (verdict == Verdict::solution)
@@ -218,92 +209,88 @@ struct Loose : Newton
 };
 } // namespace
 
-TEST(Loop, FindsTheAnswerOfADirectSolveOfTheFinalActiveSet)
+TEST_2D_3D(Loop, FindsTheAnswerOfADirectSolveOfTheFinalActiveSet, dim)
 {
-  for (const int dim : {2, 3})
-    for (const double friction : {0.0, 0.3})
+  for (const double friction : {0.0, 0.3})
+  {
+    std::int64_t slips = 0, sticks = 0;
+    for (const bool damped : {false, true})
     {
-      std::int64_t slips = 0, sticks = 0;
-      for (const bool damped : {false, true})
-      {
-        Newton found(dim);
-        found.bulk->bar = 0.5;
-        // A slave node on a master that is pushed aside and up
-        found.prescribe(1, 0, 0.003);
-        found.prescribe(found.scene.sheets.num_slaves + 1, dim - 1, 0.01);
-        found.add<NodeToSurface>(found.law(friction), Sliding::small);
-        found.press(0.09, 0, 1.2 / (dim - 1));
-        ASSERT_EQ(found.solve(damped), Verdict::solution);
-        // Nodes stick, or slip
-        found.press(0.11, damped ? 0.02 : 0.008, 3.0 / (dim - 1));
-        found.residuals.clear();
-        ASSERT_EQ(found.solve(damped), Verdict::solution);
-        EXPECT_LE(found.residuals.size(), 15u);
-        const std::vector<double> expected = direct(found, friction);
-        const std::size_t n = found.scene.u->size();
-        expect_near(*found.scene.u, std::span(expected).first(n), 1e-11);
-        const law::NodeState& nodes = *found.contacts[0]->nodes();
-        const std::vector<double> normals
-            = found.contacts[0]->master()->normals();
-        for (std::int32_t s = 0; s < nodes.num_nodes(); ++s)
-          for (int k = 0; k < dim; ++k)
-            EXPECT_NEAR(nodes.is_vector()
-                            ? nodes.multiplier[dim * s + k]
-                            : nodes.multiplier[s] * normals[3 * s + k],
-                        expected[n + dim * s + k], 1e-9);
-        const Contact& contact = *found.contacts[0];
-        EXPECT_GT(count(contact, law::open), 0);
-        slips += count(contact, law::slip);
-        sticks += count(contact, law::stick);
-        EXPECT_EQ(found.loop->iterate().closed,
-                  nodes.num_nodes() - count(contact, law::open));
-        // Once more there is nothing left to do
-        found.residuals.clear();
-        EXPECT_EQ(found.solve(), Verdict::solution);
-        EXPECT_EQ(found.residuals.size(), 1u);
-      }
-      EXPECT_GT(slips, 0);
-      EXPECT_EQ(sticks > 0, friction > 0);
+      Newton found(dim);
+      found.bulk->bar = 0.5;
+      // A slave node on a master that is pushed aside and up
+      found.prescribe(1, 0, 0.003);
+      found.prescribe(found.scene.sheets.num_slaves + 1, dim - 1, 0.01);
+      found.add<NodeToSurface>(found.law(friction), Sliding::small);
+      found.press(0.09, 0, 1.2 / (dim - 1));
+      ASSERT_EQ(found.solve(damped), Verdict::solution);
+      // Nodes stick, or slip
+      found.press(0.11, damped ? 0.02 : 0.008, 3.0 / (dim - 1));
+      found.residuals.clear();
+      ASSERT_EQ(found.solve(damped), Verdict::solution);
+      EXPECT_LE(found.residuals.size(), 15u);
+      const std::vector<double> expected = direct(found, friction);
+      const std::size_t n = found.scene.u->size();
+      expect_near(*found.scene.u, std::span(expected).first(n), 1e-11);
+      const law::NodeState& nodes = *found.contacts[0]->nodes();
+      const std::vector<double> normals
+          = found.contacts[0]->master()->normals();
+      for (std::int32_t s = 0; s < nodes.num_nodes(); ++s)
+        for (int k = 0; k < dim; ++k)
+          EXPECT_NEAR(nodes.is_vector()
+                          ? nodes.multiplier[dim * s + k]
+                          : nodes.multiplier[s] * normals[3 * s + k],
+                      expected[n + dim * s + k], 1e-9);
+      const Contact& contact = *found.contacts[0];
+      EXPECT_GT(count(contact, law::open), 0);
+      slips += count(contact, law::slip);
+      sticks += count(contact, law::stick);
+      EXPECT_EQ(found.loop->iterate().closed,
+                nodes.num_nodes() - count(contact, law::open));
+      // Once more there is nothing left to do
+      found.residuals.clear();
+      EXPECT_EQ(found.solve(), Verdict::solution);
+      EXPECT_EQ(found.residuals.size(), 1u);
     }
+    EXPECT_GT(slips, 0);
+    EXPECT_EQ(sticks > 0, friction > 0);
+  }
 }
 
-TEST(Loop, IteratesAreTheSameOnRanks)
+TEST_2D_3D(Loop, IteratesAreTheSameOnRanks, dim)
 {
-  for (const int dim : {2, 3})
+  const auto make = [&](Newton& found)
   {
-    const auto make = [&](Newton& found)
-    {
-      found.bulk->bar = 0.5;
-      found.prescribe(1, 0, 0.003);
-      found.add<NodeToSurface>(found.law(0.3));
-      found.press(0.09, 0.008, 0.6);
-    };
-    Newton one(dim);
-    make(one);
-    ASSERT_EQ(one.solve(), Verdict::solution);
-    for (const int size : {2, 3})
-      on_ranks(size,
-               [&](mesh::Ranks& ranks)
+    found.bulk->bar = 0.5;
+    found.prescribe(1, 0, 0.003);
+    found.add<NodeToSurface>(found.law(0.3));
+    found.press(0.09, 0.008, 0.6);
+  };
+  Newton one(dim);
+  make(one);
+  ASSERT_EQ(one.solve(), Verdict::solution);
+  for (const int size : {2, 3})
+    on_ranks(size,
+             [&](mesh::Ranks& ranks)
+             {
+               Newton here(dim, 0.05, &ranks);
+               make(here);
+               here.begin();
+               Verdict verdict = here.judge(true);
+               for (const std::vector<double>& x : one.iterates)
                {
-                 Newton here(dim, 0.05, &ranks);
-                 make(here);
-                 here.begin();
-                 Verdict verdict = here.judge(true);
-                 for (const std::vector<double>& x : one.iterates)
-                 {
-                   EXPECT_EQ(verdict, Verdict::goes_on);
-                   here.system().take(here.mine(x));
-                   verdict = here.judge();
-                 }
-                 EXPECT_EQ(verdict, Verdict::solution);
-                 // What the last iterates leave is rounding
-                 expect_near(here.residuals, one.residuals, 1e-12);
-                 EXPECT_EQ(here.loop->iterate().closed,
-                           one.loop->iterate().closed);
-                 EXPECT_DOUBLE_EQ(here.loop->max_increment(),
-                                  one.loop->max_increment());
-               });
-  }
+                 EXPECT_EQ(verdict, Verdict::goes_on);
+                 here.system().take(here.mine(x));
+                 verdict = here.judge();
+               }
+               EXPECT_EQ(verdict, Verdict::solution);
+               // What the last iterates leave is rounding
+               expect_near(here.residuals, one.residuals, 1e-12);
+               EXPECT_EQ(here.loop->iterate().closed,
+                         one.loop->iterate().closed);
+               EXPECT_DOUBLE_EQ(here.loop->max_increment(),
+                                one.loop->max_increment());
+             });
 }
 
 TEST(Loop, AnIterateWithoutItsDirichletValuesIsNoSolution)
@@ -347,7 +334,7 @@ TEST(Loop, HalfAStepIsTakenWhereIteratesGoRound)
   EXPECT_EQ(found.judge(true), Verdict::goes_on);
   const std::vector<double> x = found.unknowns(),
                             dx = tests::solution(found.matrix(), found.b);
-  found.take(x, dx, 0);
+  found.take(dx, 0);
   EXPECT_EQ(found.loop->active_set().cycles(), 0);
   found.judge();
   EXPECT_EQ(found.unknowns(), x);
@@ -356,13 +343,15 @@ TEST(Loop, HalfAStepIsTakenWhereIteratesGoRound)
   double left = 1;
   for (int step = 0; step < 3; ++step)
   {
-    found.take(x, dx, 1);
+    found.system().take(x);
+    found.take(dx, 1);
     found.judge();
     // Two steps go half the way from the iterate before
     left = step < 2 ? left / 2 : 0;
-    const std::vector<double> now = found.unknowns();
+    std::vector<double> expected = x;
     for (std::size_t i = 0; i < x.size(); ++i)
-      EXPECT_NEAR(now[i], x[i] - (1 - left) * dx[i], 1e-15);
+      expected[i] -= (1 - left) * dx[i];
+    expect_near(found.unknowns(), expected, 1e-15);
   }
   EXPECT_EQ(found.loop->iterate().changes.status, 0);
   found.begin();
@@ -542,64 +531,61 @@ TEST(Loop, TheVersionTellsWhenTheJacobianHasChanged)
   EXPECT_GT(found.loop->version(), version);
 }
 
-TEST(Loop, FactorsOfComplementarityAreOfSpringsInSeries)
+TEST_2D_3D(Loop, FactorsOfComplementarityAreOfSpringsInSeries, dim)
 {
-  for (const int dim : {2, 3})
+  Newton found(dim);
+  const std::int32_t n = found.scene.sheets.num_slaves;
+  std::vector<double> compliance(found.scene.sheets.num_nodes());
+  const auto& facets = found.scene.sheets.master;
+  for (std::size_t i = 0; i < compliance.size(); ++i)
   {
-    Newton found(dim);
-    const std::int32_t n = found.scene.sheets.num_slaves;
-    std::vector<double> compliance(found.scene.sheets.num_nodes());
-    const auto& facets = found.scene.sheets.master;
-    for (std::size_t i = 0; i < compliance.size(); ++i)
-    {
-      // Directions of which the mean counts, of those that are free
-      const double k = 1.0 + static_cast<double>(i * i % 7);
-      for (int d = 0; d < dim; ++d)
-        found.bulk->ground[dim * i + d] = k * (d == 0 ? 2 : 0.5);
-      double free = dim;
-      double sum = k * (2 + 0.5 * (dim - 1));
-      if (i == 1)
-      {
-        found.prescribe(1, 0, 0);
-        sum -= 2 * k;
-        --free;
-      }
-      compliance[i] = free / sum;
-    }
-    // What cannot move gives way to nothing
+    // Directions of which the mean counts, of those that are free
+    const double k = 1.0 + static_cast<double>(i * i % 7);
     for (int d = 0; d < dim; ++d)
-      found.prescribe(n + 2, d, 0);
-    compliance[n + 2] = 0;
-    found.add<NodeToSurface>(found.law(0));
-    found.begin();
-    const Contact& contact = *found.contacts[0];
-    const auto weights = contact.master()->weights();
-    for (std::int32_t s = 0; s < n; ++s)
+      found.bulk->ground[dim * i + d] = k * (d == 0 ? 2 : 0.5);
+    double free = dim;
+    double sum = k * (2 + 0.5 * (dim - 1));
+    if (i == 1)
     {
-      // Mean of the nodes of the facet that the node is in front of
-      std::vector<double> of_facet;
-      for (std::int32_t f = 0; f < facets.list().size(); ++f)
-      {
-        std::vector<std::int32_t> nodes(facets.list()[f].begin(),
-                                        facets.list()[f].end()),
-            paired;
-        for (std::size_t e = 0; e < weights.nodes.size(); ++e)
-          if (weights.slaves[e] == s and weights.nodes[e] >= n)
-            paired.push_back(weights.nodes[e]);
-        std::ranges::sort(nodes);
-        std::ranges::sort(paired);
-        if (nodes == paired)
-          for (const std::int32_t node : nodes)
-            of_facet.push_back(compliance[node]);
-      }
-      ASSERT_FALSE(of_facet.empty());
-      double mean = 0;
-      for (const double value : of_facet)
-        mean += value / static_cast<double>(of_facet.size());
-      EXPECT_NEAR(contact.nodes()->c[s] * contact.nodes()->area[s]
-                      * (compliance[s] + mean),
-                  1, 1e-12);
+      found.prescribe(1, 0, 0);
+      sum -= 2 * k;
+      --free;
     }
+    compliance[i] = free / sum;
+  }
+  // What cannot move gives way to nothing
+  for (int d = 0; d < dim; ++d)
+    found.prescribe(n + 2, d, 0);
+  compliance[n + 2] = 0;
+  found.add<NodeToSurface>(found.law(0));
+  found.begin();
+  const Contact& contact = *found.contacts[0];
+  const auto weights = contact.master()->weights();
+  for (std::int32_t s = 0; s < n; ++s)
+  {
+    // Mean of the nodes of the facet that the node is in front of
+    std::vector<double> of_facet;
+    for (std::int32_t f = 0; f < facets.list().size(); ++f)
+    {
+      std::vector<std::int32_t> nodes(facets.list()[f].begin(),
+                                      facets.list()[f].end()),
+          paired;
+      for (std::size_t e = 0; e < weights.nodes.size(); ++e)
+        if (weights.slaves[e] == s and weights.nodes[e] >= n)
+          paired.push_back(weights.nodes[e]);
+      std::ranges::sort(nodes);
+      std::ranges::sort(paired);
+      if (nodes == paired)
+        for (const std::int32_t node : nodes)
+          of_facet.push_back(compliance[node]);
+    }
+    ASSERT_FALSE(of_facet.empty());
+    double mean = 0;
+    for (const double value : of_facet)
+      mean += value / static_cast<double>(of_facet.size());
+    EXPECT_NEAR(contact.nodes()->c[s] * contact.nodes()->area[s]
+                    * (compliance[s] + mean),
+                1, 1e-12);
   }
 }
 

@@ -2,14 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "free_bodies_scene.h"
-#include "generator.h"
-#include "thread_ranks.h"
-#include <cmath>
 #include <contactx/math/matrix.h>
 #include <contactx/solve/rigid_modes.h>
 #include <contactx/solve/springs.h>
-#include <gtest/gtest.h>
-#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::solve;
@@ -71,46 +66,44 @@ std::size_t num_free(FreeScene& scene)
   return modes.free()[0].cols();
 }
 
-TEST(RigidModes, ExactMotionsKeepDistancesAndLinearOnesAreTheirDerivative)
+TEST_2D_3D(RigidModes, ExactMotionsKeepDistancesAndLinearOnesAreTheirDerivative,
+           g)
 {
-  for (const int g : {2, 3})
+  FreeScene scene = block(g);
+  const auto x = scene.bulk->reference();
+  const RigidModes modes(scene.bodies, *scene.bulk, x);
+  const std::size_t m = modes.modes_per_body();
+  const std::array<double, 6> all{0.3, -0.2, 0.7, 0.5, 0.1, -0.4};
+  std::vector<double> at(g * m);
+  const auto moved = [&](std::int32_t node, double part, bool is_exact)
   {
-    FreeScene scene = block(g);
-    const auto x = scene.bulk->reference();
-    const RigidModes modes(scene.bodies, *scene.bulk, x);
-    const std::size_t m = modes.modes_per_body();
-    const std::array<double, 6> all{0.3, -0.2, 0.7, 0.5, 0.1, -0.4};
-    std::vector<double> at(g * m);
-    const auto moved = [&](std::int32_t node, double part, bool is_exact)
+    std::array<double, 6> motion = all;
+    for (double& value : motion)
+      value *= part;
+    std::vector<double> by(g);
+    modes.move(node, x, motion.data(), is_exact, by.data());
+    return by;
+  };
+  const std::vector<double> first = moved(0, 1, true);
+  for (std::int32_t i = 1; i < scene.truss.num_nodes(); ++i)
+  {
+    const std::vector<double> by = moved(i, 1, true),
+                              little = moved(i, 1e-6, true),
+                              linear = moved(i, 1, false);
+    modes.at(i, x, at.data());
+    double before = 0, after = 0;
+    for (int k = 0; k < g; ++k)
     {
-      std::array<double, 6> motion = all;
-      for (double& value : motion)
-        value *= part;
-      std::vector<double> by(g);
-      modes.move(node, x, motion.data(), is_exact, by.data());
-      return by;
-    };
-    const std::vector<double> first = moved(0, 1, true);
-    for (std::int32_t i = 1; i < scene.truss.num_nodes(); ++i)
-    {
-      const std::vector<double> by = moved(i, 1, true),
-                                little = moved(i, 1e-6, true),
-                                linear = moved(i, 1, false);
-      modes.at(i, x, at.data());
-      double before = 0, after = 0;
-      for (int k = 0; k < g; ++k)
-      {
-        const double apart = x[i * g + k] - x[k];
-        before += apart * apart;
-        after += std::pow(apart + by[k] - first[k], 2);
-        double sum = 0;
-        for (std::size_t p = 0; p < m; ++p)
-          sum += at[k * m + p] * all[p];
-        EXPECT_NEAR(linear[k], sum, 1e-14);
-        EXPECT_NEAR(little[k], 1e-6 * sum, 1e-11);
-      }
-      EXPECT_NEAR(after, before, 1e-13);
+      const double apart = x[i * g + k] - x[k];
+      before += apart * apart;
+      after += std::pow(apart + by[k] - first[k], 2);
+      double sum = 0;
+      for (std::size_t p = 0; p < m; ++p)
+        sum += at[k * m + p] * all[p];
+      EXPECT_NEAR(linear[k], sum, 1e-14);
+      EXPECT_NEAR(little[k], 1e-6 * sum, 1e-11);
     }
+    EXPECT_NEAR(after, before, 1e-13);
   }
 }
 
@@ -194,53 +187,47 @@ TEST(RigidModes, SupportsIn3D)
   EXPECT_EQ(num_free(guided), 1);
 }
 
-TEST(RigidModes, ElasticSupports)
+TEST_2D_3D(RigidModes, ElasticSupports, g)
 {
-  for (const int g : {2, 3})
-  {
-    // Of all nodes in one direction
-    FreeScene scene = block(g);
-    const double k = 1e-6;
-    for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
-      scene.bulk->ground[i * g + g - 1] = k;
-    const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
-    // Along it, and rotations that lift nodes
-    const std::size_t held = g == 2 ? 2 : 3;
-    EXPECT_EQ(modes.free()[0].cols(), num_modes(g) - held);
-    ASSERT_EQ(modes.weak()[0].cols(), held);
-    EXPECT_EQ(modes.stiffness()[0].size(), held);
-    // A translation has all springs
-    EXPECT_NEAR(std::ranges::max(modes.stiffness()[0]),
-                k * scene.truss.num_nodes(), 1e-6 * k);
-    // Stiff ones leave nothing that little resists
-    for (double& spring : scene.bulk->ground)
-      spring = 1;
-    const RigidModes stiff(scene.bodies, *scene.bulk, scene.bulk->reference());
-    EXPECT_FALSE(stiff.any_free());
-  }
+  // Of all nodes in one direction
+  FreeScene scene = block(g);
+  const double k = 1e-6;
+  for (std::int32_t i = 0; i < scene.truss.num_nodes(); ++i)
+    scene.bulk->ground[i * g + g - 1] = k;
+  const RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+  // Along it, and rotations that lift nodes
+  const std::size_t held = g == 2 ? 2 : 3;
+  EXPECT_EQ(modes.free()[0].cols(), num_modes(g) - held);
+  ASSERT_EQ(modes.weak()[0].cols(), held);
+  EXPECT_EQ(modes.stiffness()[0].size(), held);
+  // A translation has all springs
+  EXPECT_NEAR(std::ranges::max(modes.stiffness()[0]),
+              k * scene.truss.num_nodes(), 1e-6 * k);
+  // Stiff ones leave nothing that little resists
+  for (double& spring : scene.bulk->ground)
+    spring = 1;
+  const RigidModes stiff(scene.bodies, *scene.bulk, scene.bulk->reference());
+  EXPECT_FALSE(stiff.any_free());
 }
 
-TEST(RigidModes, StressesAreNoSupport)
+TEST_2D_3D(RigidModes, StressesAreNoSupport, g)
 {
-  for (const int g : {2, 3})
-  {
-    FreeScene scene = block(g);
-    RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
-    EXPECT_EQ(modes.free()[0].cols(), num_modes(g));
-    // They resist rotations alone
-    scene.bulk->tension = 0.1;
-    modes.update(*scene.bulk, scene.bulk->reference());
-    EXPECT_EQ(modes.free()[0].cols(), num_modes(g));
-    // A support that comes later
-    scene.bulk->tension = 0;
-    scene.bulk->ground[0] = 1e-3;
-    modes.update(*scene.bulk, scene.bulk->reference());
-    EXPECT_EQ(modes.free()[0].cols(), num_modes(g) - 1);
-    // Whose motions are looked at from then on
-    scene.bulk->ground[0] = 0;
-    modes.update(*scene.bulk, scene.bulk->reference());
-    EXPECT_EQ(modes.free()[0].cols(), num_modes(g));
-  }
+  FreeScene scene = block(g);
+  RigidModes modes(scene.bodies, *scene.bulk, scene.bulk->reference());
+  EXPECT_EQ(modes.free()[0].cols(), num_modes(g));
+  // They resist rotations alone
+  scene.bulk->tension = 0.1;
+  modes.update(*scene.bulk, scene.bulk->reference());
+  EXPECT_EQ(modes.free()[0].cols(), num_modes(g));
+  // A support that comes later
+  scene.bulk->tension = 0;
+  scene.bulk->ground[0] = 1e-3;
+  modes.update(*scene.bulk, scene.bulk->reference());
+  EXPECT_EQ(modes.free()[0].cols(), num_modes(g) - 1);
+  // Whose motions are looked at from then on
+  scene.bulk->ground[0] = 0;
+  modes.update(*scene.bulk, scene.bulk->reference());
+  EXPECT_EQ(modes.free()[0].cols(), num_modes(g));
 }
 
 TEST(RigidModes, AStiffnessThatThrowsChangesNothing)
@@ -251,50 +238,44 @@ TEST(RigidModes, AStiffnessThatThrowsChangesNothing)
   EXPECT_THROW(modes.update(*scene.bulk, scene.bulk->reference()),
                std::runtime_error);
   EXPECT_EQ(modes.free()[0].cols(), 3);
-  EXPECT_THROW(modes.update(*scene.bulk, std::array<double, 3>{}),
-               std::invalid_argument);
+  EXPECT_REFUSED(modes.update(*scene.bulk, std::array<double, 3>{}));
 }
 
-TEST(RigidModes, OnSeveralRanksTheyAreThoseOfOne)
+TEST_2D_3D(RigidModes, OnSeveralRanksTheyAreThoseOfOne, g)
 {
-  for (const int g : {2, 3})
+  Truss truss{g, {}, {}};
+  truss.add_block(2, {0.3, -0.2, 0.5}, 1.0);
+  truss.add_block(3, {2, 2, 2}, 2.0);
+  const auto hold = [g](FreeScene& scene)
   {
-    Truss truss{g, {}, {}};
-    truss.add_block(2, {0.3, -0.2, 0.5}, 1.0);
-    truss.add_block(3, {2, 2, 2}, 2.0);
-    const auto hold = [g](FreeScene& scene)
-    {
-      scene.bulk->fixed[0] = 1;
-      scene.bulk->ground[2 * g - 1] = 1e-5;
-    };
-    FreeScene one(truss);
-    hold(one);
-    const RigidModes serial(one.bodies, *one.bulk, one.bulk->reference());
-    EXPECT_EQ(serial.free()[0].cols(), num_modes(g) - 2);
-    EXPECT_EQ(serial.free()[1].cols(), num_modes(g));
-    for (const int size : {2, 3, 4})
-      tests::on_ranks(
-          size,
-          [&](mesh::Ranks& ranks)
+    scene.bulk->fixed[scene.place[0] * g] = 1;
+    scene.bulk->ground[scene.place[1] * g + g - 1] = 1e-5;
+  };
+  FreeScene one(truss);
+  hold(one);
+  const RigidModes serial(one.bodies, *one.bulk, one.bulk->reference());
+  EXPECT_EQ(serial.free()[0].cols(), num_modes(g) - 2);
+  EXPECT_EQ(serial.free()[1].cols(), num_modes(g));
+  for (const int size : {2, 3, 4})
+    tests::on_ranks(
+        size,
+        [&](mesh::Ranks& ranks)
+        {
+          FreeScene scene(truss, &ranks);
+          hold(scene);
+          const RigidModes modes(scene.bodies, *scene.bulk,
+                                 scene.bulk->reference());
+          EXPECT_NEAR(modes.size(), serial.size(), 1e-14);
+          for (std::size_t b = 0; b < 2; ++b)
           {
-            FreeScene scene(truss, &ranks);
-            hold(scene);
-            const RigidModes modes(scene.bodies, *scene.bulk,
-                                   scene.bulk->reference());
-            EXPECT_NEAR(modes.size(), serial.size(), 1e-14);
-            for (std::size_t b = 0; b < 2; ++b)
-            {
-              // The same space
-              const Eigen::MatrixXd &F = modes.free()[b], &S = serial.free()[b];
-              ASSERT_EQ(F.cols(), S.cols());
-              EXPECT_TRUE(
-                  (F * F.transpose()).isApprox(S * S.transpose(), 1e-8));
-            }
-            ASSERT_EQ(modes.stiffness()[0].size(), 1);
-            EXPECT_NEAR(modes.stiffness()[0][0], serial.stiffness()[0][0],
-                        1e-15);
-          });
-  }
+            // The same space
+            const Eigen::MatrixXd &F = modes.free()[b], &S = serial.free()[b];
+            ASSERT_EQ(F.cols(), S.cols());
+            EXPECT_TRUE((F * F.transpose()).isApprox(S * S.transpose(), 1e-8));
+          }
+          ASSERT_EQ(modes.stiffness()[0].size(), 1);
+          EXPECT_NEAR(modes.stiffness()[0][0], serial.stiffness()[0][0], 1e-15);
+        });
 }
 
 TEST(RigidModes, OfSingleBodiesAsThoseOfAll)
@@ -399,47 +380,44 @@ TEST(Springs, OfEqualOnesTheFirstInTheMeshAsItWasMade)
     EXPECT_EQ(springs[i] != 0, i == dof);
 }
 
-TEST(Springs, OnSeveralRanksTheyAreThoseOfOne)
+TEST_2D_3D(Springs, OnSeveralRanksTheyAreThoseOfOne, g)
 {
-  for (const int g : {2, 3})
-  {
-    const Points points(g, 20, 3);
-    const std::vector<double> expected = points.springs();
-    for (const int size : {2, 3, 4})
-      tests::on_ranks(size,
-                      [&](mesh::Ranks& ranks)
+  const Points points(g, 20, 3);
+  const std::vector<double> expected = points.springs();
+  for (const int size : {2, 3, 4})
+    tests::on_ranks(size,
+                    [&](mesh::Ranks& ranks)
+                    {
+                      // The last rank has no node
+                      std::vector<Eigen::Index> dofs;
+                      std::vector<double> diagonal, mine;
+                      std::vector<std::int8_t> prescribed;
+                      std::vector<std::int64_t> original;
+                      for (int i = 0; i < 20; ++i)
                       {
-                        // The last rank has no node
-                        std::vector<Eigen::Index> dofs;
-                        std::vector<double> diagonal, mine;
-                        std::vector<std::int8_t> prescribed;
-                        std::vector<std::int64_t> original;
-                        for (int i = 0; i < 20; ++i)
+                        if (i % (size - 1) != ranks.rank())
+                          continue;
+                        original.push_back(points.original[i]);
+                        for (int dof = i * g; dof < (i + 1) * g; ++dof)
                         {
-                          if (i % (size - 1) != ranks.rank())
-                            continue;
-                          original.push_back(points.original[i]);
-                          for (int dof = i * g; dof < (i + 1) * g; ++dof)
-                          {
-                            dofs.push_back(dof);
-                            diagonal.push_back(points.diagonal[dof]);
-                            prescribed.push_back(0);
-                            mine.push_back(expected[dof]);
-                          }
+                          dofs.push_back(dof);
+                          diagonal.push_back(points.diagonal[dof]);
+                          prescribed.push_back(0);
+                          mine.push_back(expected[dof]);
                         }
-                        const Eigen::MatrixXd field
-                            = points.field(Eigen::all, dofs);
-                        EXPECT_EQ(independent_springs(ranks, field, prescribed,
-                                                      diagonal, original, g),
-                                  mine);
-                      });
-  }
+                      }
+                      const Eigen::MatrixXd field
+                          = points.field(Eigen::all, dofs);
+                      EXPECT_EQ(independent_springs(ranks, field, prescribed,
+                                                    diagonal, original, g),
+                                mine);
+                    });
 }
 
 TEST(Springs, WhatDoesNotFitIsRefused)
 {
   Points points(2, 4, 0);
   points.diagonal.pop_back();
-  EXPECT_THROW(points.springs(), std::invalid_argument);
+  EXPECT_REFUSED(points.springs());
 }
 } // namespace

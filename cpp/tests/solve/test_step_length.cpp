@@ -1,13 +1,10 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include <array>
-#include <cmath>
 #include <contactx/math/vec.h>
 #include <contactx/solve/step_length.h>
 #include <functional>
 #include <gtest/gtest.h>
-#include <limits>
 
 using namespace contactx;
 using namespace contactx::solve;
