@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "facing.h"
 #include "mortar_reference.h"
 #include <contactx/geometry/segment.h>
@@ -138,9 +139,8 @@ template <class>
 using FacetBeforeItsLike = testing::Test;
 TYPED_TEST_SUITE(FacetBeforeItsLike, FacetTypes);
 
-TYPED_TEST(FacetBeforeItsLike, IsDiagonal)
+TYPED_TEST_OF(FacetBeforeItsLike, IsDiagonal, F)
 {
-  using F = TypeParam;
   Generator random(3);
   for (int i = 0; i < 20; ++i)
   {
@@ -169,35 +169,32 @@ TEST(Integrals, WithoutPairsAreZero)
   EXPECT_EQ(found.normal, std::vector<double>(3 * n));
 }
 
-TEST(Integrals, HaveTheGapOfParallelSurfaces)
+TEST_2D_3D(Integrals, HaveTheGapOfParallelSurfaces, gdim)
 {
-  for (const int gdim : {2, 3})
-    for (const Cells cells : {Cells::triangles, Cells::mixed})
+  for (const Cells cells : {Cells::triangles, Cells::mixed})
+  {
+    const double gap = 0.3;
+    const Facing scene(sheet(gdim, 3, cells, false, 0, 1, level(gdim, gap)),
+                       sheet(gdim, 4, cells, true, -0.5, 1.5, level(gdim, 0)));
+    const auto pairs = scene.find();
+    // Upright, and along a direction with the cosine 0.8
+    for (const double cosine : {1., 0.8})
     {
-      const double gap = 0.3;
-      const Facing scene(
-          sheet(gdim, 3, cells, false, 0, 1, level(gdim, gap)),
-          sheet(gdim, 4, cells, true, -0.5, 1.5, level(gdim, 0)));
-      const auto pairs = scene.find();
-      // Upright, and along a direction with the cosine 0.8
-      for (const double cosine : {1., 0.8})
-      {
-        Vector<3> n{0, 0, 0};
-        n[gdim - 1] = cosine;
-        n[0] = std::sqrt(1 - cosine * cosine);
-        std::vector<double> normal;
-        for (std::int32_t f = 0; f < scene.slave.facets().size(); ++f)
-          normal.insert(normal.end(), n.begin(), n.end());
-        const auto found = scene.integrals(pairs, scene.x, normal);
-        std::vector<double> sum(found.area.size());
-        for (std::size_t i = 0; i < pairs.size(); ++i)
-          for (int s = 0; s < most_nodes; ++s)
-            sum[most_nodes * pairs.slave[i] + s]
-                += found.gap[most_nodes * i + s];
-        for (std::size_t i = 0; i < sum.size(); ++i)
-          EXPECT_NEAR(sum[i], gap / cosine * found.area[i], 1e-13);
-      }
+      Vector<3> n{0, 0, 0};
+      n[gdim - 1] = cosine;
+      n[0] = std::sqrt(1 - cosine * cosine);
+      std::vector<double> normal;
+      for (std::int32_t f = 0; f < scene.slave.facets().size(); ++f)
+        normal.insert(normal.end(), n.begin(), n.end());
+      const auto found = scene.integrals(pairs, scene.x, normal);
+      std::vector<double> sum(found.area.size());
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (int s = 0; s < most_nodes; ++s)
+          sum[most_nodes * pairs.slave[i] + s] += found.gap[most_nodes * i + s];
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        EXPECT_NEAR(sum[i], gap / cosine * found.area[i], 1e-13);
     }
+  }
 }
 
 TEST(Integrals, AreNegativeGapsWherePenetrated)
@@ -233,6 +230,17 @@ struct Sums
   }
 };
 
+/// Compare with a quadrature of the facets in space.
+template <class S, class M>
+void expect_sums(const Sums<S, M>& found, const PairMoments<S, M>& expected,
+                 double tolerance)
+{
+  for (int t = 0; t < S::nodes; ++t)
+  {
+    EXPECT_LT(norm(found.mixed[t] - expected.mixed[t]), tolerance);
+    EXPECT_LT(norm(found.mass[t] - expected.mass[t]), tolerance);
+  }
+}
 template <class>
 using SegmentOf = testing::Test;
 TYPED_TEST_SUITE(SegmentOf, FacetPairTypes);
@@ -251,11 +259,7 @@ TYPED_TEST(SegmentOf, IsIntegratedByReferenceArea)
     const PairMoments<S, M> expected(p.slave, p.reference, p.master,
                                      slave.plane.n);
     EXPECT_NEAR(sums.total, expected.total, 1e-10);
-    for (int t = 0; t < S::nodes; ++t)
-    {
-      EXPECT_LT(norm(sums.mixed[t] - expected.mixed[t]), 1e-10);
-      EXPECT_LT(norm(sums.mass[t] - expected.mass[t]), 1e-10);
-    }
+    expect_sums<S, M>(sums, expected, 1e-10);
     together += sums.total > 0;
   }
   EXPECT_GT(together, 15);
@@ -265,9 +269,8 @@ template <class>
 using SegmentOfTheSame = testing::Test;
 TYPED_TEST_SUITE(SegmentOfTheSame, FacetTypes);
 
-TYPED_TEST(SegmentOfTheSame, HasTheFacetsArea)
+TYPED_TEST_OF(SegmentOfTheSame, HasTheFacetsArea, F)
 {
-  using F = TypeParam;
   Generator random(2);
   for (int i = 0; i < 20; ++i)
   {
@@ -303,13 +306,8 @@ TEST(DistortedQuadrilaterals, AreIntegratedToRounding)
             (*x)[l][k] += random(-distortion, distortion);
       }
       const SlaveFacet<Q> slave(xs, xs);
-      const Sums<Q, Q> sums(slave, xm);
-      const PairMoments<Q, Q> expected(xs, xs, xm, slave.plane.n);
-      for (int t = 0; t < 4; ++t)
-      {
-        EXPECT_LT(norm(sums.mixed[t] - expected.mixed[t]), 1e-12);
-        EXPECT_LT(norm(sums.mass[t] - expected.mass[t]), 1e-12);
-      }
+      expect_sums<Q, Q>(Sums<Q, Q>(slave, xm), {xs, xs, xm, slave.plane.n},
+                        1e-12);
     }
 }
 

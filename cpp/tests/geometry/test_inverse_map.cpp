@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "facing.h"
 #include <contactx/geometry/inverse_map.h>
 #include <contactx/geometry/projection_plane.h>
@@ -47,9 +48,8 @@ template <class>
 using InverseMapOf = testing::Test;
 TYPED_TEST_SUITE(InverseMapOf, FacetTypes);
 
-TYPED_TEST(InverseMapOf, GivesBackLocalCoordinatesOfAllSizes)
+TYPED_TEST_OF(InverseMapOf, GivesBackLocalCoordinatesOfAllSizes, F)
 {
-  using F = TypeParam;
   Generator random(1);
   for (const double size : {1., 1e-6, 1e-3, 1e6})
     for (int i = 0; i < 500; ++i)
@@ -68,9 +68,8 @@ TYPED_TEST(InverseMapOf, GivesBackLocalCoordinatesOfAllSizes)
     }
 }
 
-TYPED_TEST(InverseMapOf, InterpolatesThePlaneWithItsSlopesAndJacobian)
+TYPED_TEST_OF(InverseMapOf, InterpolatesThePlaneWithItsSlopesAndJacobian, F)
 {
-  using F = TypeParam;
   Generator random(3);
   const double h = 1e-5;
   for (int i = 0; i < 200; ++i)
@@ -195,9 +194,8 @@ template <class>
 using PlaneOf = testing::Test;
 TYPED_TEST_SUITE(PlaneOf, FacetTypes);
 
-TYPED_TEST(PlaneOf, GivesBackCoordinatesAndHeightAndTouchesTheFacet)
+TYPED_TEST_OF(PlaneOf, GivesBackCoordinatesAndHeightAndTouchesTheFacet, F)
 {
-  using F = TypeParam;
   Generator random(1);
   for (int i = 0; i < 200; ++i)
   {
@@ -224,9 +222,8 @@ TYPED_TEST(PlaneOf, GivesBackCoordinatesAndHeightAndTouchesTheFacet)
   }
 }
 
-TYPED_TEST(PlaneOf, HasTheNodesOfAnAffineFacetAtTheirLocalCoordinates)
+TYPED_TEST_OF(PlaneOf, HasTheNodesOfAnAffineFacetAtTheirLocalCoordinates, F)
 {
-  using F = TypeParam;
   Generator random(2);
   for (int i = 0; i < 100; ++i)
   {
@@ -243,9 +240,8 @@ TYPED_TEST(PlaneOf, HasTheNodesOfAnAffineFacetAtTheirLocalCoordinates)
   }
 }
 
-TYPED_TEST(PlaneOf, ProjectsAlongItsDirectionAndMovesWithItsFacet)
+TYPED_TEST_OF(PlaneOf, ProjectsAlongItsDirectionAndMovesWithItsFacet, F)
 {
-  using F = TypeParam;
   Generator random(4);
   for (int i = 0; i < 200; ++i)
   {

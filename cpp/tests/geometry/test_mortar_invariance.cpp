@@ -234,12 +234,12 @@ TEST_P(Spoiled, FacetIsInNoPairAndHarmsNoOther)
         EXPECT_EQ(scene.find(10, margin), pairs);
       }
       // Nor where the pairs are those of before
-      const auto pairs = scene.all_pairs();
-      const auto found = scene.integrals(pairs);
-      const auto expected = clean.integrals(clean.all_pairs());
+      const auto found = scene.integrals(scene.all_pairs());
+      auto area = clean.integrals(clean.all_pairs()).area;
       EXPECT_TRUE(all_finite(found));
-      for (std::size_t i = 0; i < expected.area.size(); ++i)
-        EXPECT_EQ(found.area[i], expected.area[i]);
+      area.insert(area.end(), found.area.begin() + area.size(),
+                  found.area.end());
+      EXPECT_EQ(found.area, area);
     }
 }
 
@@ -370,7 +370,8 @@ double area_of_both(const Overlap<2>& a, const Overlap<2>& b)
   return area(Polygon<2>(c.corner.begin(), c.corner.begin() + c.size));
 }
 
-/// Either cuts the other alike, though a corner of `s` is turned by rounding.
+/// Either cuts the other alike, though a corner of `s` is turned by
+/// rounding.
 template <class M>
 void expect_alike(const Flat<Quadrilateral>& s, const Flat<M>& m, double size)
 {

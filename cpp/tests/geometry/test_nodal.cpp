@@ -4,9 +4,6 @@
 #include "expect.h"
 #include "scene.h"
 #include <contactx/geometry/facing.h>
-#include <gtest/gtest.h>
-#include <numbers>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::geometry;
@@ -52,12 +49,10 @@ TEST(NodalAreas, WithAWeightAreItsIntegrals)
     { return nodal_areas(square.facets(), square.x, 3, weight); };
     expect_near(with(std::vector<double>(n, 1)), areas(square), 1e-15);
     // The shape functions' mass matrix is symmetric, and exact
-    std::vector<double> x(n), w(n);
+    std::vector<double> x(n);
     for (std::size_t i = 0; i < n; ++i)
-    {
       x[i] = square.x[3 * i];
-      w[i] = random(0, 1);
-    }
+    const std::vector<double> w = random.numbers(n, 0, 1);
     const auto by_x = with(x), by_w = with(w);
     EXPECT_NEAR(std::inner_product(x.begin(), x.end(), by_w.begin(), 0.0),
                 std::inner_product(w.begin(), w.end(), by_x.begin(), 0.0),
@@ -80,9 +75,8 @@ TEST(NodalAreas, AreTheIntegralsOfTheShapeFunctions)
   EXPECT_DOUBLE_EQ(a[0], 1. / 16); // corner
   EXPECT_DOUBLE_EQ(a[1], 2. / 16); // edge
   EXPECT_DOUBLE_EQ(a[4], 4. / 16); // middle
-  Scene skew(3);
-  skew.facet({skew.node({0, 0, 0}), skew.node({3, 0, 0}), skew.node({0, 1, 0}),
-              skew.node({1, 1, 0})});
+  const Scene skew(3, {{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+                   {{0, 1, 2, 3}});
   // Integrals of the bilinear functions over the trapezoid, by hand
   const auto b = areas(skew);
   EXPECT_DOUBLE_EQ(b[0], 7. / 12);
@@ -93,13 +87,9 @@ TEST(NodalAreas, AreTheIntegralsOfTheShapeFunctions)
 
 TEST(NodalAreas, OfSegmentsAreLengths)
 {
-  Scene scene(2);
-  for (Vector<3> p : {Vector<3>{0, 0}, {3, 4}, {3, 5}, {9, 9}})
-    scene.node(p);
-  scene.facet({0, 1});
-  scene.facet({1, 2});
-  const std::vector<double> expected{2.5, 3, 0.5, 0}; // the last is not on it
-  EXPECT_EQ(areas(scene), expected);
+  const Scene scene(2, {{0, 0}, {3, 4}, {3, 5}, {9, 9}}, {{0, 1}, {1, 2}});
+  // The last is not on it
+  EXPECT_EQ(areas(scene), (std::vector<double>{2.5, 3, 0.5, 0}));
 }
 
 TEST(NodalAreas, OfASphereConverge)
@@ -126,20 +116,10 @@ TEST(NodalAreas, ScaleWithTheSurface)
 
 TEST(NodalAreas, OfFacetsWithoutAreaAreZero)
 {
-  Scene scene(3);
-  for (int i = 0; i < 4; ++i)
-    scene.node({double(i), double(i), 0});
-  scene.facet({0, 1, 2});
-  scene.facet({0, 1, 2, 3});
+  const Scene scene(3, {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}},
+                    {{0, 1, 2}, {0, 1, 2, 3}});
   EXPECT_EQ(areas(scene), std::vector<double>(4, 0));
   EXPECT_EQ(normal(scene, 1), Vector<3>{});
-}
-
-TEST(NodalNormals, OfAFlatSurfaceAreItsNormal)
-{
-  const Scene scene = flat_grid(3, Cells::mixed);
-  for (int i = 0; i < 16; ++i)
-    EXPECT_LT(norm(normal(scene, i) - Vector<3>{0, 0, 1}), 1e-15);
 }
 
 TEST(NodalNormals, PointOutOfASphere)
@@ -158,13 +138,8 @@ TEST(NodalNormals, PointOutOfASphere)
 
 TEST(NodalNormals, AreWeightedByArea)
 {
-  Scene scene(2); // a corner of segments of length 3 and 4
-  scene.node({0, 0});
-  scene.node({3, 0});
-  scene.node({3, 4});
-  scene.node({7, 7});
-  scene.facet({0, 1});
-  scene.facet({1, 2});
+  // A corner of segments of length 3 and 4
+  const Scene scene(2, {{0, 0}, {3, 0}, {3, 4}, {7, 7}}, {{0, 1}, {1, 2}});
   EXPECT_LT(norm(normal(scene, 1) - Vector<3>{0.8, -0.6}), 1e-15);
   EXPECT_EQ(normal(scene, 3), Vector<3>{}); // not on it
 }
@@ -189,15 +164,11 @@ TEST(NodalNormals, OfATinySurfaceAreUnitVectors)
 
 TEST(NodalNormals, ThatCancelAreZero)
 {
-  Scene scene(3); // both sides of a sheet that is turned somehow
+  // Both sides of a sheet that is turned somehow
+  Scene scene(3, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+              {{0, 1, 2}, {1, 3, 2}, {2, 1, 0}, {3, 1, 2}});
   Generator random(1);
-  const Motion<3> motion(random, 1);
-  for (Vector<3> p : {Vector<3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})
-    scene.node(motion(p));
-  scene.facet({0, 1, 2});
-  scene.facet({1, 3, 2});
-  scene.facet({2, 1, 0});
-  scene.facet({3, 1, 2});
+  scene.move(Motion<3>(random, 1));
   EXPECT_EQ(normal(scene, 0), Vector<3>{});
   EXPECT_EQ(normal(scene, 3), Vector<3>{});
 }
@@ -223,7 +194,7 @@ TEST(NodalAreaVectors, OfPartsAddUpToThoseOfTheWhole)
     area[i] += larger[i];
   expect_near(unit_normals(vector, area, 3), nodal_normals(facets, scene.x, 3),
               1e-14);
-  // Of a flat square all vectors are along one axis, and as long as the areas
+  // Of a flat square all vectors are along its normal, and as long as the areas
   const Scene square = flat_grid(2, Cells::mixed);
   const auto flat = nodal_area_vectors(square.facets(), square.x, 3);
   const auto sizes = areas(square);
@@ -238,7 +209,7 @@ TEST(NodalAreaVectors, OfPartsAddUpToThoseOfTheWhole)
 std::vector<double> everywhere(const Scene& scene, const Vector<3>& n)
 {
   std::vector<double> normal;
-  for (std::size_t i = 0; i < scene.x.size() / scene.gdim; ++i)
+  for (std::int32_t i = 0; i < scene.num_nodes(); ++i)
     normal.insert(normal.end(), n.begin(), n.begin() + scene.gdim);
   return normal;
 }
@@ -247,16 +218,11 @@ std::vector<double> everywhere(const Scene& scene, const Vector<3>& n)
 /// to 3 at the corners, 4 amid the bottom.
 Scene square(double angle = 0)
 {
-  Scene scene(2);
+  Scene scene(2, {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0}},
+              {{0, 4}, {4, 1}, {1, 2}, {2, 3}, {3, 0}});
   const double c = std::cos(angle), s = std::sin(angle);
-  for (const auto& [x, y] :
-       {std::pair{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}, {0.5, 0.}})
-    scene.node({c * x - s * y, s * x + c * y});
-  scene.facet({0, 4});
-  scene.facet({4, 1});
-  scene.facet({1, 2});
-  scene.facet({2, 3});
-  scene.facet({3, 0});
+  scene.move([c, s](const Vector<3>& p)
+             { return Vector<3>{c * p[0] - s * p[1], s * p[0] + c * p[1]}; });
   return scene;
 }
 
@@ -328,15 +294,7 @@ TEST(FacingAreas, OfABoxOnItsEdgeAreThoseOfBothSides)
 
 TEST(FacingAreas, OfARoundBodyAreWhole)
 {
-  Scene scene(2);
-  const int n = 12;
-  for (int i = 0; i < n; ++i)
-  {
-    const double t = 2 * std::numbers::pi * i / n;
-    scene.node({std::cos(t), std::sin(t)});
-  }
-  for (int i = 0; i < n; ++i)
-    scene.facet({i, (i + 1) % n});
+  const Scene scene = regular_polygon(12, 1);
   const auto whole = geometry::nodal_areas(scene.facets(), scene.x, 2);
   const auto area = areas(scene, {0.1, std::sqrt(0.99)});
   for (int i : {8, 9, 10})
@@ -358,11 +316,10 @@ TEST(FacingAreas, RefuseNormalsOfOtherNodes)
 {
   const Scene scene = flat_grid(1, Cells::quadrilaterals);
   const std::vector<double> few(3);
-  EXPECT_THROW(geometry::facing_areas(scene.facets(), scene.x, scene.x, few, 3),
-               std::invalid_argument);
-  EXPECT_THROW(geometry::facing_areas(scene.facets(), few, scene.x, scene.x, 3),
-               std::invalid_argument);
-  EXPECT_THROW(geometry::facing_nodes(scene.facets(), scene.x, few, 3),
-               std::invalid_argument);
+  EXPECT_REFUSED(
+      geometry::facing_areas(scene.facets(), scene.x, scene.x, few, 3));
+  EXPECT_REFUSED(
+      geometry::facing_areas(scene.facets(), few, scene.x, scene.x, 3));
+  EXPECT_REFUSED(geometry::facing_nodes(scene.facets(), scene.x, few, 3));
 }
 } // namespace

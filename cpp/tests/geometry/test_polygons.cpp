@@ -332,15 +332,6 @@ TEST(Gauss, IsSymmetricAndExactUpToItsDegree)
   }
 }
 
-TEST(Gauss, KnowsTheRulesOfTheBooks)
-{
-  EXPECT_NEAR(gauss(1)[0].x, 0.5, 1e-16);
-  EXPECT_NEAR(gauss(2)[0].x, 0.5 - std::sqrt(3.) / 6, 1e-16);
-  EXPECT_NEAR(gauss(3)[0].x, 0.5 - std::sqrt(0.15), 1e-16);
-  EXPECT_NEAR(gauss(3)[0].weight, 5. / 18, 1e-15);
-  EXPECT_NEAR(gauss(3)[1].weight, 8. / 18, 1e-15);
-}
-
 TEST(Integrate, IsExactOverAnInterval)
 {
   const auto o = interval(-0.5, 1);

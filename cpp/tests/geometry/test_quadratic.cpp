@@ -1,15 +1,14 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "facets.h"
+#include "scene.h"
 #include <contactx/geometry/facets.h>
 #include <contactx/geometry/gather.h>
 #include <contactx/geometry/quadratic.h>
 #include <contactx/geometry/quadratic_facets.h>
 #include <contactx/geometry/smooth.h>
-#include <gtest/gtest.h>
-#include <numbers>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::geometry;
@@ -27,15 +26,11 @@ TYPED_TEST_SUITE(QuadraticFacet, Kinds);
 template <class F>
 Local<F> some_place(Generator& random)
 {
-  Local<F> xi;
-  for (double& c : xi)
-    c = random(0.05, 0.45);
-  return xi;
+  return random.vector<F::tdim>(0.05, 0.45);
 }
 
-TYPED_TEST(QuadraticFacet, ShapeFunctionsAreOneAtTheirNodes)
+TYPED_TEST_OF(QuadraticFacet, ShapeFunctionsAreOneAtTheirNodes, F)
 {
-  using F = TypeParam;
   for (int l = 0; l < F::nodes; ++l)
   {
     const auto N = F::shape(F::points[l]);
@@ -44,9 +39,8 @@ TYPED_TEST(QuadraticFacet, ShapeFunctionsAreOneAtTheirNodes)
   }
 }
 
-TYPED_TEST(QuadraticFacet, DerivativesAreThoseOfTheShapeFunctions)
+TYPED_TEST_OF(QuadraticFacet, DerivativesAreThoseOfTheShapeFunctions, F)
 {
-  using F = TypeParam;
   Generator random(1);
   const auto xi = some_place<F>(random);
   constexpr double h = 1e-5;
@@ -62,13 +56,10 @@ TYPED_TEST(QuadraticFacet, DerivativesAreThoseOfTheShapeFunctions)
   }
 }
 
-TYPED_TEST(QuadraticFacet, BasisGivesTheSameField)
+TYPED_TEST_OF(QuadraticFacet, BasisGivesTheSameField, F)
 {
-  using F = TypeParam;
   Generator random(2);
-  Vector<F::nodes> u;
-  for (double& c : u)
-    c = random(-1, 1);
+  const auto u = random.vector<F::nodes>(-1, 1);
   const auto N = F::shape(some_place<F>(random));
   const auto M = Basis<F>::functions(N);
   double field = 0, sum = 0;
@@ -106,11 +97,7 @@ struct Parts : Facets
 {
   std::vector<std::int8_t> level;
 
-  void add(const std::vector<std::int32_t>& part)
-  {
-    nodes.insert(nodes.end(), part.begin(), part.end());
-    offsets.push_back(static_cast<std::int32_t>(nodes.size()));
-  }
+  void add(const std::vector<std::int32_t>& part) { add_facet(*this, part); }
 };
 
 /// Triangles 0 1 2 and 1 3 2 with the middles 4 (12), 5 (02), 6 (01), 7 (23)
@@ -198,7 +185,7 @@ TEST(QuadraticFacets, LackNoPart)
   Parts p = two_triangles();
   p.offsets.pop_back();
   p.nodes.resize(p.offsets.back());
-  EXPECT_THROW(quadratic_facets(p.list(), p.level), std::invalid_argument);
+  EXPECT_REFUSED(quadratic_facets(p.list(), p.level));
 }
 
 TEST(CornerAreas, OfPartsAreTheIntegralsOfQuadraticShapeFunctions)
@@ -225,27 +212,6 @@ TEST(CornerAreas, OfPartsAreTheIntegralsOfQuadraticShapeFunctions)
     EXPECT_NEAR(std::accumulate(area.begin(), area.end(), 0.0), 2, 1e-14);
   }
 }
-
-/// A polygon about the origin, or an open part of it.
-struct Arc
-{
-  Arc(int chords, double angle)
-  {
-    const bool is_closed = angle == 2 * std::numbers::pi;
-    for (int i = 0; i < chords + not is_closed; ++i)
-    {
-      x.push_back(std::cos(angle * i / chords));
-      x.push_back(std::sin(angle * i / chords));
-    }
-    const auto n = static_cast<std::int32_t>(x.size() / 2);
-    // With the body, the disc, on the left
-    for (std::int32_t i = 0; i < chords; ++i)
-      facets.add({i, (i + 1) % n});
-  }
-
-  Parts facets;
-  std::vector<double> x;
-};
 
 /// A part of the mantle of a cylinder about the z axis, of triangles whose
 /// diagonals go one way or the other in turn, or of quadrilaterals.
@@ -295,11 +261,17 @@ TEST(SmoothFacets, OfAPolygonAreThoseOfTheCircle)
 {
   for (const double angle : {2 * std::numbers::pi, 1.5})
   {
-    const Arc arc(angle > 2 ? 24 : 6, angle);
-    const auto smooth = smooth_facets(arc.facets.list(), arc.x, 2);
-    for (std::int32_t f = 0; f < arc.facets.list().size(); ++f)
+    // A polygon about the origin, or an open part of it
+    Scene arc = regular_polygon(24, 1);
+    if (angle < 2)
+      arc = line(
+          6, [&](double s)
+          { return Vector<3>{std::cos(angle * s), std::sin(angle * s)}; });
+    const auto facets = arc.facets();
+    const auto smooth = smooth_facets(facets, arc.x, 2);
+    for (std::int32_t f = 0; f < facets.size(); ++f)
     {
-      const auto nodes = arc.facets.list()[f];
+      const auto nodes = facets[f];
       for (int l = 0; l < 2; ++l)
         EXPECT_LT(error_of(smooth[f].normal[l], &arc.x[2 * nodes[l]], 2), 3e-3);
       const auto x = gather<Segment>(nodes, arc.x);
@@ -311,7 +283,7 @@ TEST(SmoothFacets, OfAPolygonAreThoseOfTheCircle)
       }
       // Open ends are sharp, all else is not
       const bool first = angle < 2 and f == 0,
-                 last = angle < 2 and f == arc.facets.list().size() - 1;
+                 last = angle < 2 and f == facets.size() - 1;
       EXPECT_EQ(smooth[f].sharp, (first ? 1 : 0) + (last ? 2 : 0));
     }
   }
@@ -365,9 +337,9 @@ TEST(SmoothFacets, OfFlatOnesAreThemselvesAndEdgesStay)
 
 TEST(SmoothFacets, TurnWithTheirFacets)
 {
-  const Arc arc(20, 2 * std::numbers::pi);
-  const auto smooth = smooth_facets(arc.facets.list(), arc.x, 2);
-  const auto x = gather<Segment>(arc.facets.list()[3], arc.x);
+  const Scene arc = regular_polygon(20, 1);
+  const auto smooth = smooth_facets(arc.facets(), arc.x, 2);
+  const auto x = gather<Segment>(arc.facets()[3], arc.x);
   const double c = std::cos(0.7), s = std::sin(0.7);
   const auto turn = [c, s](const Vector<2>& p) -> Vector<2>
   { return {c * p[0] - s * p[1], s * p[0] + c * p[1]}; };
@@ -380,9 +352,9 @@ TEST(SmoothFacets, TurnWithTheirFacets)
 
 TEST(SmoothFacets, AreProjectedOnAlongTheirNormals)
 {
-  const Arc arc(20, 2 * std::numbers::pi);
-  const auto smooth = smooth_facets(arc.facets.list(), arc.x, 2);
-  const auto x = gather<Segment>(arc.facets.list()[0], arc.x);
+  const Scene arc = regular_polygon(20, 1);
+  const auto smooth = smooth_facets(arc.facets(), arc.x, 2);
+  const auto x = gather<Segment>(arc.facets()[0], arc.x);
   for (const double angle : {0.02, 0.15, 0.3})
   {
     const Vector<2> way{std::cos(angle), std::sin(angle)};

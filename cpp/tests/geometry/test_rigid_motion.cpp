@@ -23,13 +23,9 @@ template <int D>
 double error(const RigidMotion& motion, const MovingScene& s)
 {
   double most = 0;
-  for (std::size_t i = 0; i < s.x1.size(); i += D)
-  {
-    Vector<D> from, to;
-    std::copy_n(s.facets.x.begin() + i, D, from.begin());
-    std::copy_n(s.x1.begin() + i, D, to.begin());
-    most = std::max(most, norm(motion.moved_back<D>(to) - from));
-  }
+  for (std::size_t i = 0; i < s.x1.size() / D; ++i)
+    most = std::max(most, norm(motion.moved_back<D>(row<D>(s.x1, i))
+                               - row<D>(s.facets.x, i)));
   return most;
 }
 
