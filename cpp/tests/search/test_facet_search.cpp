@@ -1,11 +1,11 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "facing.h"
 #include "mortar_reference.h"
 #include <contactx/geometry/projection_plane.h>
 #include <contactx/geometry/segment.h>
-#include <numbers>
 #include <set>
 
 using namespace contactx;
@@ -134,18 +134,17 @@ Facing waves(int gdim, Cells cells, double turn, double wave)
           sheet(gdim, 5, cells, true, -1, 1, at(0, 0))};
 }
 
-TEST(FacetSearch, FindsWhatALoopFinds)
+TEST_2D_3D(FacetSearch, FindsWhatALoopFinds, gdim)
 {
-  for (const int gdim : {2, 3})
-    for (const Cells cells :
-         {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
-      for (const double turn : {0., 0.3, 0.785})
-        for (const double wave : {0., 0.1, 0.25})
-        {
-          const Facing scene = waves(gdim, cells, turn, wave);
-          expect_brute_force(scene, 10);
-          expect_brute_force(scene, 0.12);
-        }
+  for (const Cells cells :
+       {Cells::triangles, Cells::quadrilaterals, Cells::mixed})
+    for (const double turn : {0., 0.3, 0.785})
+      for (const double wave : {0., 0.1, 0.25})
+      {
+        const Facing scene = waves(gdim, cells, turn, wave);
+        expect_brute_force(scene, 10);
+        expect_brute_force(scene, 0.12);
+      }
 }
 
 TEST(FacetSearch, FindsWhatALoopFindsOfFacetsAnywhere)
@@ -179,18 +178,17 @@ TEST(FacetSearch, FindsWhatALoopFindsOfFacetsAnywhere)
   EXPECT_GT(found, 4000);
 }
 
-TEST(FacetSearch, ReachesSoFar)
+TEST_2D_3D(FacetSearch, ReachesSoFar, gdim)
 {
-  for (const int gdim : {2, 3})
-    for (const double height : {0.5, -0.5}) // apart, and penetrated
-    {
-      const Facing scene(
-          sheet(gdim, 1, Cells::mixed, false, 0, 1, level(gdim, height)),
-          sheet(gdim, 1, Cells::mixed, true, 0, 1, level(gdim, 0)));
-      EXPECT_EQ(scene.find(0.499).size(), 0u);
-      EXPECT_GT(scene.find(0.501).size(), 0u);
-      EXPECT_EQ(scene.find(infinity), scene.find(0.501));
-    }
+  for (const double height : {0.5, -0.5}) // apart, and penetrated
+  {
+    const Facing scene(
+        sheet(gdim, 1, Cells::mixed, false, 0, 1, level(gdim, height)),
+        sheet(gdim, 1, Cells::mixed, true, 0, 1, level(gdim, 0)));
+    EXPECT_EQ(scene.find(0.499).size(), 0u);
+    EXPECT_GT(scene.find(0.501).size(), 0u);
+    EXPECT_EQ(scene.find(infinity), scene.find(0.501));
+  }
 }
 
 TEST(FacetSearch, FindsFacetsThatFaceEachOther)
@@ -215,39 +213,17 @@ TEST(FacetSearch, FindsFacetsThatFaceEachOther)
   EXPECT_FALSE(found(180)); // looks the same way
 }
 
-TEST(FacetSearch, LooksBeyondAFacetsEdges)
+TEST_2D_3D(FacetSearch, LooksBeyondAFacetsEdges, gdim)
 {
-  for (const int gdim : {2, 3})
-  {
-    // The master begins at a distance of 0.1 of a slave facet of size 1
-    const Facing scene(
-        sheet(gdim, 1, Cells::quadrilaterals, false, 0, 1, level(gdim, 0)),
-        sheet(gdim, 1, Cells::quadrilaterals, true, 1.1, 2,
-              [gdim](double s, double t)
-              {
-                return gdim == 2 ? Vector<3>{s, 0, 0} : Vector<3>{s, t - 1, 0};
-              }));
-    EXPECT_EQ(scene.find(1, 0.19).size(), 0u);
-    EXPECT_EQ(scene.find(1, 0.21).size(), 1u);
-  }
-}
-
-TEST(FacetSearch, AMarginGivesMorePairs)
-{
-  for (const int gdim : {2, 3})
-    for (const double wave : {0., 0.2})
-    {
-      const Facing scene = waves(gdim, Cells::mixed, 0.4, wave);
-      FacetPairs before = scene.find();
-      for (const double margin : {0.01, 0.1, 0.5, 1.})
-      {
-        const FacetPairs more = scene.find(10, margin);
-        EXPECT_TRUE(contains(more, before));
-        before = more;
-      }
-      EXPECT_GT(before.size(), scene.find().size());
-      EXPECT_FALSE(contains(scene.find(), before));
-    }
+  // The master begins at a distance of 0.1 of a slave facet of size 1
+  const Facing scene(
+      sheet(gdim, 1, Cells::quadrilaterals, false, 0, 1, level(gdim, 0)),
+      sheet(
+          gdim, 1, Cells::quadrilaterals, true, 1.1, 2,
+          [gdim](double s, double t)
+          { return gdim == 2 ? Vector<3>{s, 0, 0} : Vector<3>{s, t - 1, 0}; }));
+  EXPECT_EQ(scene.find(1, 0.19).size(), 0u);
+  EXPECT_EQ(scene.find(1, 0.21).size(), 1u);
 }
 
 TEST(FacetSearch, FollowsMovingFacets)
@@ -273,12 +249,9 @@ TEST(FacetSearch, FollowsMovingFacets)
 TEST(FacetSearch, NeedsFacetsOfItsDimension)
 {
   using search::FacetSearch;
-  EXPECT_THROW(FacetSearch({0, 2}, {0, 1}, {0, 3}, {2, 3, 4}, 3),
-               std::invalid_argument);
-  EXPECT_THROW(FacetSearch({0, 3}, {0, 1, 2}, {0, 2}, {3, 4}, 3),
-               std::invalid_argument);
-  EXPECT_THROW(FacetSearch({0, 3}, {0, 1, 2}, {0, 2}, {3, 4}, 2),
-               std::invalid_argument);
+  EXPECT_REFUSED(FacetSearch({0, 2}, {0, 1}, {0, 3}, {2, 3, 4}, 3));
+  EXPECT_REFUSED(FacetSearch({0, 3}, {0, 1, 2}, {0, 2}, {3, 4}, 3));
+  EXPECT_REFUSED(FacetSearch({0, 3}, {0, 1, 2}, {0, 2}, {3, 4}, 2));
 }
 
 TEST(FacetSearch, TakesEmptySurfaces)

@@ -173,27 +173,6 @@ struct OverAGrid
   }
 };
 
-TEST(Finder, DistanceIsThatOfALoop)
-{
-  Generator random(1);
-  for (int i = 0; i < 20; ++i)
-  {
-    const OverAGrid s(random);
-    const Surface surface = s.scene.surface();
-    const Finder finder = finder_of(s.pairing(), s.scene.x);
-    for (std::int32_t node : s.nodes)
-    {
-      const Vector<3> p = s.scene.point(node);
-      double expected = 1e9;
-      for (std::int32_t f = 0; f < surface.facets().size(); ++f)
-        expected
-            = std::min(expected, norm(closest(surface, f, s.scene.x, p)->d));
-      EXPECT_DOUBLE_EQ(norm(finder.find(s.scene.x, p, {}, 1e9).nearest->d),
-                       expected);
-    }
-  }
-}
-
 TEST(PairingOnMixedFacets, ProjectsOnTheFacetThatItNames)
 {
   Generator random(2);

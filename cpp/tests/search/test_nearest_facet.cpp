@@ -1,17 +1,13 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "generator.h"
 #include "random_scenes.h"
-#include "scene.h"
 #include <contactx/search/bisector.h>
 #include <contactx/search/order.h>
 #include <contactx/search/pairing.h>
 #include <contactx/search/select.h>
 #include <contactx/search/surface.h>
 #include <gtest/gtest.h>
-#include <limits>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::search;
@@ -74,46 +70,6 @@ TEST_P(NearestFacet, IsTheOneThatALoopFinds)
     }
   }
   EXPECT_EQ(found > 1000, GetParam() != Kind::empty);
-}
-
-TEST_P(NearestFacet, IsTheSameAfterARefit)
-{
-  Generator random(101 + static_cast<int>(GetParam()));
-  for (int set = 0; set < 50; ++set)
-  {
-    Scene scene = random_scene(GetParam(), random);
-    const Surface surface = scene.surface();
-    BoxTree tree(surface.boxes(scene.x));
-    for (double& c : scene.x)
-      c += random(-0.5, 0.5);
-    const std::vector<Box> boxes = surface.boxes(scene.x);
-    tree.refit(boxes);
-    const BoxTree fresh(boxes);
-    for (int i = 0; i < 24; ++i)
-    {
-      const Vector<3> p = random_query(scene, random, i);
-      expect_same(nearest_facet(surface, tree, scene.x, p, {}, 10),
-                  nearest_facet(surface, fresh, scene.x, p, {}, 10));
-    }
-  }
-}
-
-TEST(NearestFacetOf, CoincidentFacetsIsTheFirst)
-{
-  Generator random(7);
-  for (int set = 0; set < 100; ++set)
-  {
-    Scene scene(3);
-    add_random_facet(scene, random, 3, 1, 1);
-    const std::vector<std::int32_t> first = scene.nodes;
-    for (int i = 0; i < 40; ++i)
-      scene.facet(first);
-    const BoxTree tree(scene.surface().boxes(scene.x));
-    const auto q = nearest_facet(scene.surface(), tree, scene.x,
-                                 random.vector<3>(-3, 3), {}, 10);
-    ASSERT_TRUE(q);
-    EXPECT_EQ(q->facet, 0);
-  }
 }
 
 TEST(NearestFacetOf, APointThatIsNotANumberIsNone)
@@ -182,9 +138,7 @@ TEST(SpatialOrder, HoldsEachPlaceOnce)
   Generator random(1);
   for (int gdim : {2, 3})
   {
-    std::vector<double> x(gdim * 500);
-    for (double& c : x)
-      c = random(-3, 7);
+    std::vector<double> x = random.numbers(gdim * 500, -3, 7);
     x[gdim * 7] = std::nan("");
     auto order = spatial_order(numbers(500), x, gdim);
     std::ranges::sort(order);
@@ -196,9 +150,7 @@ TEST(SpatialOrder, HoldsEachPlaceOnce)
 TEST(SpatialOrder, ShortensTheWay)
 {
   Generator random(2);
-  std::vector<double> x(3 * 4096);
-  for (double& c : x)
-    c = random(0, 1);
+  std::vector<double> x = random.numbers(3 * 4096, 0, 1);
   const auto length = [&x](const std::vector<std::int32_t>& order)
   {
     double sum = 0;

@@ -29,15 +29,10 @@ paired(const Scene& scene, const Vector<3>& p, const Vector<3>& normal = {})
 /// a valley where it is negative.
 inline Scene fold(double down, bool split)
 {
-  Scene scene(3);
   const double c = std::cos(down), s = std::sin(down);
-  for (Vector<3> p : {Vector<3>{-1, 0, 0},
-                      {0, 0, 0},
-                      {-1, 1, 0},
-                      {0, 1, 0},
-                      {c, 0, -s},
-                      {c, 1, -s}})
-    scene.node(p);
+  Scene scene(
+      3, {{-1, 0, 0}, {0, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {c, 0, -s}, {c, 1, -s}},
+      {});
   scene.patch({0, 1, 2, 3}, split);
   scene.patch({1, 4, 3, 5}, split);
   return scene;
@@ -46,28 +41,24 @@ inline Scene fold(double down, bool split)
 /// @brief The fold of two unit segments in the plane, with the body below.
 inline Scene fold_2d(double down)
 {
-  Scene scene(2);
-  for (Vector<3> p :
-       {Vector<3>{-1, 0}, {0, 0}, {std::cos(down), -std::sin(down)}})
-    scene.node(p);
-  scene.facet({1, 0});
-  scene.facet({2, 1});
-  return scene;
+  return {2,
+          {{-1, 0}, {0, 0}, {std::cos(down), -std::sin(down)}},
+          {{1, 0}, {2, 1}}};
 }
 
 /// @brief The three faces of a box that meet at its corner (0, 0, 0), with
 /// the box in the octant of negative coordinates.
 inline Scene corner(bool split)
 {
-  Scene scene(3);
-  for (Vector<3> p : {Vector<3>{0, 0, 0},
-                      {-1, 0, 0},
-                      {0, -1, 0},
-                      {-1, -1, 0},
-                      {0, 0, -1},
-                      {-1, 0, -1},
-                      {0, -1, -1}})
-    scene.node(p);
+  Scene scene(3,
+              {{0, 0, 0},
+               {-1, 0, 0},
+               {0, -1, 0},
+               {-1, -1, 0},
+               {0, 0, -1},
+               {-1, 0, -1},
+               {0, -1, -1}},
+              {});
   scene.patch({3, 2, 1, 0}, split); // z = 0
   scene.patch({5, 1, 4, 0}, split); // y = 0
   scene.patch({6, 4, 2, 0}, split); // x = 0
@@ -80,27 +71,17 @@ INSTANTIATE_TEST_SUITE_P(Split, Select, testing::Bool());
 
 constexpr Vector<3> up{0, 0, 1};
 
-TEST_P(Select, SurfaceReachesItsMarginBeyondTheOuterEdge)
+TEST_P(Select, SurfaceReachesItsMarginBeyondItsCorners)
 {
   const Scene scene
       = flat_grid(1, GetParam() ? Cells::triangles : Cells::quadrilaterals);
+  constexpr double margin = geometry::facet_margin;
   for (double height : {-0.1, 0.0, 0.1})
   {
-    const auto inside
-        = paired(scene, {-0.99 * geometry::facet_margin, 0.5, height});
-    ASSERT_TRUE(inside);
-    EXPECT_EQ(inside->feature, geometry::interior);
-    EXPECT_NEAR(inside->excess, 0.99 * geometry::facet_margin, 1e-14);
-    EXPECT_NEAR(inside->gap, height, 1e-15);
-    EXPECT_FALSE(paired(scene, {-1.01 * geometry::facet_margin, 0.5, height}));
-    // Beyond the corners, too
-    EXPECT_TRUE(paired(scene, {-0.99 * geometry::facet_margin, -0.01, height}));
-    EXPECT_FALSE(
-        paired(scene, {-1.01 * geometry::facet_margin, -0.01, height}));
-    EXPECT_TRUE(
-        paired(scene, {0.01, 1 + 0.9 * geometry::facet_margin, height}));
-    EXPECT_FALSE(
-        paired(scene, {0.01, 1 + 1.1 * geometry::facet_margin, height}));
+    EXPECT_TRUE(paired(scene, {-0.99 * margin, -0.01, height}));
+    EXPECT_FALSE(paired(scene, {-1.01 * margin, -0.01, height}));
+    EXPECT_TRUE(paired(scene, {0.01, 1 + 0.9 * margin, height}));
+    EXPECT_FALSE(paired(scene, {0.01, 1 + 1.1 * margin, height}));
   }
 }
 
@@ -170,20 +151,6 @@ TEST_P(Select, ConeComponentsGiveTheNormalBack)
 }
 
 constexpr double right_angle = 1.5707963267948966;
-
-TEST(Select2D, SurfaceReachesItsMarginBeyondItsEnds)
-{
-  const Scene scene = fold_2d(0);
-  for (double height : {-0.1, 0.1})
-  {
-    const auto q = paired(scene, {-1 - 0.9 * geometry::facet_margin, height});
-    ASSERT_TRUE(q);
-    EXPECT_NEAR(q->excess, 0.9 * geometry::facet_margin, 1e-14);
-    EXPECT_FALSE(paired(scene, {-1 - 1.1 * geometry::facet_margin, height}));
-    EXPECT_TRUE(paired(scene, {1 + 0.9 * geometry::facet_margin, height}));
-    EXPECT_FALSE(paired(scene, {1 + 1.1 * geometry::facet_margin, height}));
-  }
-}
 
 TEST(Select2D, ConeComponentsGiveTheNormalBack)
 {
@@ -273,6 +240,23 @@ INSTANTIATE_TEST_SUITE_P(Of, Folds,
                          testing::Values("segments", "triangles",
                                          "quadrilaterals"),
                          [](const auto& info) { return info.param; });
+
+TEST_P(Folds, SurfaceReachesItsMarginBeyondTheOuterEdge)
+{
+  const Scene scene = fold(0);
+  constexpr double margin = geometry::facet_margin;
+  for (double height : {-0.1, 0.0, 0.1})
+  {
+    const auto inside = paired(scene, at(-1 - 0.99 * margin, height));
+    ASSERT_TRUE(inside);
+    EXPECT_EQ(inside->feature, geometry::interior);
+    EXPECT_NEAR(inside->excess, 0.99 * margin, 1e-14);
+    EXPECT_NEAR(inside->gap, height, 1e-15);
+    EXPECT_FALSE(paired(scene, at(-1 - 1.01 * margin, height)));
+    EXPECT_TRUE(paired(scene, at(1 + 0.9 * margin, height)));
+    EXPECT_FALSE(paired(scene, at(1 + 1.1 * margin, height)));
+  }
+}
 
 TEST_P(Folds, FlatNeighboursGiveTheirNormalEverywhere)
 {

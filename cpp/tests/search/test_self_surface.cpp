@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "scene.h"
 #include "self_scene.h"
 #include <gtest/gtest.h>
 
@@ -66,20 +67,8 @@ TEST(SelfOrder, RoundingDoesNotDecideBetweenPartsThatAreAlike)
 TEST(SelfOrder, OfASurfaceInSpaceItGoesAlongEdges)
 {
   // A flat plate of 4 x 4 quadrilaterals
-  std::vector<double> x;
-  geometry::Facets facets;
-  for (int j = 0; j <= 4; ++j)
-    for (int i = 0; i <= 4; ++i)
-      x.insert(x.end(), {i / 4.0, j / 4.0, 0});
-  for (std::int32_t j = 0; j < 4; ++j)
-    for (std::int32_t i = 0; i < 4; ++i)
-    {
-      const std::int32_t a = 5 * j + i;
-      for (const std::int32_t node : {a, a + 1, a + 5, a + 6})
-        facets.nodes.push_back(node);
-      facets.offsets.push_back(std::ssize(facets.nodes));
-    }
-  const SelfOrder order(facets.list(), x, 3);
+  const Scene plate = flat_grid(4, Cells::quadrilaterals);
+  const SelfOrder order(plate.facets(), plate.x, 3);
   // From a corner: farther along either edge is later
   EXPECT_EQ(order.along()[0] < order.along()[4],
             order.along()[5] < order.along()[9]);
@@ -186,28 +175,19 @@ TEST(SelfSurface, WhatFoldsIsPairedOnOneSide)
   }
 }
 
-TEST(SelfSurface, ShallowPenetrationIsSeenWhateverTheStart)
+TEST(SelfSurface, PenetrationIsSeenFromInFrontAndIfItIsShallow)
 {
   const Strip strip(80, 4, 0.05);
-  StripScene scene(strip);
-  const auto at = scene.moved(strip.folded(-0.02));
-  scene.halo->set_start(strip.folded(-0.02));
-  scene.pair(at);
-  EXPECT_EQ(scene.num_on_legs(strip), 24);
-}
-
-TEST(SelfSurface, DeepPenetrationIsSeenFromInFrontAlone)
-{
-  const Strip strip(80, 4, 0.05);
-  StripScene scene(strip);
-  const auto at = scene.moved(strip.folded(-0.04));
-  scene.halo->set_start(strip.folded(-0.04));
-  scene.pair(at);
-  EXPECT_EQ(scene.num_on_legs(strip), 0);
-  StripScene other(strip);
-  other.halo->set_start(strip.folded(0.01));
-  other.pair(at);
-  EXPECT_EQ(other.num_on_legs(strip), 24);
+  const auto seen = [&](double end, double start)
+  {
+    StripScene scene(strip);
+    scene.halo->set_start(strip.folded(start));
+    scene.pair(scene.moved(strip.folded(end)));
+    return scene.num_on_legs(strip);
+  };
+  EXPECT_EQ(seen(-0.02, -0.02), 24);
+  EXPECT_EQ(seen(-0.04, -0.04), 0);
+  EXPECT_EQ(seen(-0.04, 0.01), 24);
 }
 
 TEST(SelfSurface, NeighboursAreExcludedWithinADistance)

@@ -1,10 +1,10 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "expect.h"
 #include "facing.h"
 #include <contactx/geometry/shape.h>
 #include <contactx/search/projections.h>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::search;
@@ -89,11 +89,11 @@ TEST(Surface, ClosedOneHasNoOuterEdge)
 
 TEST(Surface, RefusesWhatIsNoSurface)
 {
-  EXPECT_THROW(Surface({}, {}, 3), std::invalid_argument);
-  EXPECT_THROW(Surface({0, 3}, {0, 1, 2, 3}, 3), std::invalid_argument);
-  EXPECT_THROW(Surface({0, 2}, {0, 1}, 3), std::invalid_argument);
-  EXPECT_THROW(Surface({0, 3}, {0, 1, 2}, 2), std::invalid_argument);
-  EXPECT_THROW(Surface({0, 5}, {0, 1, 2, 3, 4}, 3), std::invalid_argument);
+  EXPECT_REFUSED(Surface({}, {}, 3));
+  EXPECT_REFUSED(Surface({0, 3}, {0, 1, 2, 3}, 3));
+  EXPECT_REFUSED(Surface({0, 2}, {0, 1}, 3));
+  EXPECT_REFUSED(Surface({0, 3}, {0, 1, 2}, 2));
+  EXPECT_REFUSED(Surface({0, 5}, {0, 1, 2, 3, 4}, 3));
   EXPECT_NO_THROW(Surface({0}, {}, 3));
 }
 
@@ -174,13 +174,12 @@ TEST(OuterMargin, IsTheDistanceFromTheOuterEdgeInLocalCoordinates)
 }
 
 template <class F>
-class Foot : public testing::Test
+struct Feet
 {
-protected:
   static constexpr int D = F::gdim;
 
   /// Random facets that share no node.
-  Foot() : scene(D)
+  Feet() : scene(D)
   {
     for (int i = 0; i < num; ++i)
     {
@@ -204,8 +203,7 @@ protected:
 
   Vector<D> point(std::span<const double> x, int i) const
   {
-    Vector<D> p;
-    std::copy_n(x.begin() + D * i, D, p.begin());
+    auto p = row<D>(x, i);
     return p;
   }
 
@@ -216,82 +214,80 @@ protected:
   std::vector<std::int32_t> which;
   std::vector<double> xi, gap;
 };
+template <class>
+using Foot = testing::Test;
 TYPED_TEST_SUITE(Foot, FacetTypes);
 
-TYPED_TEST(Foot, PlacesAreOnTheSurfaceWithItsNormal)
+TYPED_TEST_OF(Foot, PlacesAreOnTheSurfaceWithItsNormal, F)
 {
-  using F = TypeParam;
-  this->draw(0);
-  const FacetPoints q = facet_points(this->scene.surface(), this->which,
-                                     this->scene.x, this->xi);
-  for (int i = 0; i < this->num; ++i)
+  Feet<F> s;
+  s.draw(0);
+  const FacetPoints q
+      = facet_points(s.scene.surface(), s.which, s.scene.x, s.xi);
+  for (int i = 0; i < s.num; ++i)
   {
     geometry::Local<F> at;
-    std::copy_n(this->xi.begin() + 2 * i, F::tdim, at.begin());
-    const auto& x = this->facets[this->which[i]];
-    EXPECT_LT(norm(this->point(q.x, i) - position<F>(x, at)), 1e-14);
-    EXPECT_LT(norm(this->point(q.normal, i) - geometry::frame<F>(x, at).n),
-              1e-14);
+    std::copy_n(s.xi.begin() + 2 * i, F::tdim, at.begin());
+    const auto& x = s.facets[s.which[i]];
+    EXPECT_LT(norm(s.point(q.x, i) - position<F>(x, at)), 1e-14);
+    EXPECT_LT(norm(s.point(q.normal, i) - geometry::frame<F>(x, at).n), 1e-14);
   }
 }
 
-TYPED_TEST(Foot, FeetAndPlacesAreInverse)
+TYPED_TEST_OF(Foot, FeetAndPlacesAreInverse, F)
 {
-  using F = TypeParam;
+  Feet<F> s;
   // Below the radius of curvature of the warped ones
-  this->draw(0.3);
-  const Surface surface = this->scene.surface();
-  const FacetPoints q
-      = facet_points(surface, this->which, this->scene.x, this->xi);
+  s.draw(0.3);
+  const Surface surface = s.scene.surface();
+  const FacetPoints q = facet_points(surface, s.which, s.scene.x, s.xi);
   std::vector<double> points(q.x);
-  for (int i = 0; i < this->num; ++i)
+  for (int i = 0; i < s.num; ++i)
     for (int k = 0; k < F::gdim; ++k)
-      points[F::gdim * i + k] += this->gap[i] * q.normal[F::gdim * i + k];
-  const std::vector<double> nowhere(2 * this->num, -9);
+      points[F::gdim * i + k] += s.gap[i] * q.normal[F::gdim * i + k];
+  const std::vector<double> nowhere(2 * s.num, -9);
   const Projections found
-      = projections(surface, this->which, this->scene.x, points, nowhere);
-  for (int i = 0; i < this->num; ++i)
+      = projections(surface, s.which, s.scene.x, points, nowhere);
+  for (int i = 0; i < s.num; ++i)
   {
     for (int a = 0; a < F::tdim; ++a)
-      EXPECT_NEAR(found.xi[2 * i + a], this->xi[2 * i + a], 1e-12) << i;
-    EXPECT_NEAR(found.gap[i], this->gap[i], 1e-12) << i;
+      EXPECT_NEAR(found.xi[2 * i + a], s.xi[2 * i + a], 1e-12) << i;
+    EXPECT_NEAR(found.gap[i], s.gap[i], 1e-12) << i;
   }
 }
 
-TYPED_TEST(Foot, AreThoseOfTheMaterialWhenTheFacetsHaveMoved)
+TYPED_TEST_OF(Foot, AreThoseOfTheMaterialWhenTheFacetsHaveMoved, F)
 {
-  using F = TypeParam;
-  this->draw(0.3);
-  const Surface surface = this->scene.surface();
-  const Motion<F::gdim> motion(this->random, 5);
-  auto moved = this->scene.x;
+  Feet<F> s;
+  s.draw(0.3);
+  const Surface surface = s.scene.surface();
+  const Motion<F::gdim> motion(s.random, 5);
+  auto moved = s.scene.x;
   for (std::size_t i = 0; i < moved.size() / F::gdim; ++i)
   {
-    const auto p = motion(this->point(moved, i));
+    const auto p = motion(s.point(moved, i));
     std::copy(p.begin(), p.end(), moved.begin() + F::gdim * i);
   }
-  const FacetPoints before
-      = facet_points(surface, this->which, this->scene.x, this->xi);
-  const FacetPoints after = facet_points(surface, this->which, moved, this->xi);
-  for (int i = 0; i < this->num; ++i)
+  const FacetPoints before = facet_points(surface, s.which, s.scene.x, s.xi);
+  const FacetPoints after = facet_points(surface, s.which, moved, s.xi);
+  for (int i = 0; i < s.num; ++i)
   {
-    EXPECT_LT(norm(this->point(after.x, i) - motion(this->point(before.x, i))),
-              1e-13);
-    EXPECT_LT(norm(this->point(after.normal, i)
-                   - motion.rotate(this->point(before.normal, i))),
+    EXPECT_LT(norm(s.point(after.x, i) - motion(s.point(before.x, i))), 1e-13);
+    EXPECT_LT(norm(s.point(after.normal, i)
+                   - motion.rotate(s.point(before.normal, i))),
               1e-13);
   }
 }
 
-TYPED_TEST(Foot, WithoutAFacetIsWhatWasGiven)
+TYPED_TEST_OF(Foot, WithoutAFacetIsWhatWasGiven, F)
 {
-  using F = TypeParam;
-  const Surface surface = this->scene.surface();
+  Feet<F> s;
+  const Surface surface = s.scene.surface();
   const std::vector<std::int32_t> which{-1, 0, -1};
   const std::vector<double> given{0.25, 0.5, 7, 7, -3, 4};
   const std::vector<double> points(3 * F::gdim, 0.3);
   const Projections found
-      = projections(surface, which, this->scene.x, points, given);
+      = projections(surface, which, s.scene.x, points, given);
   EXPECT_EQ(found.xi[0], 0.25);
   EXPECT_EQ(found.xi[1], 0.5);
   EXPECT_NE(found.xi[2], 7);
@@ -299,13 +295,13 @@ TYPED_TEST(Foot, WithoutAFacetIsWhatWasGiven)
   EXPECT_EQ(found.xi[5], 4);
   EXPECT_EQ(found.gap[0], 0);
   EXPECT_EQ(found.gap[2], 0);
-  const FacetPoints q = facet_points(surface, which, this->scene.x, given);
+  const FacetPoints q = facet_points(surface, which, s.scene.x, given);
   for (int i : {0, 2})
   {
-    EXPECT_EQ(norm(this->point(q.x, i)), 0);
-    EXPECT_EQ(norm(this->point(q.normal, i)), 0);
+    EXPECT_EQ(norm(s.point(q.x, i)), 0);
+    EXPECT_EQ(norm(s.point(q.normal, i)), 0);
   }
-  EXPECT_NEAR(norm(this->point(q.normal, 1)), 1, 1e-14);
+  EXPECT_NEAR(norm(s.point(q.normal, 1)), 1, 1e-14);
 }
 
 TEST(FootOfADegenerateFacet, IsWhatWasGiven)
