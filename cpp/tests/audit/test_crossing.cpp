@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "passage_scene.h"
-#include <algorithm>
 #include <gtest/gtest.h>
-#include <limits>
 
 using namespace contactx;
 using namespace contactx::audit;

@@ -1,14 +1,11 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "expect.h"
 #include "moved_contact.h"
 #include "obstacles.h"
 #include <contactx/audit/audit.h>
 #include <contactx/audit/obstacle_audit.h>
 #include <contactx/audit/surfaces_audit.h>
-#include <gtest/gtest.h>
-#include <numbers>
 
 using namespace contactx;
 using namespace contactx::audit;
@@ -321,8 +318,8 @@ TEST(AuditOfObstacles, ArgumentsThatDoNotFit)
 {
   MovedContact rigid(segments(0), disc(0.5, -0.2, 0.1));
   MovedContact soft(TwoSheets(2, 0.1), 1, Sliding::finite);
-  EXPECT_THROW(SurfacesAudit(rigid.halo, rigid.contact), std::invalid_argument);
-  EXPECT_THROW(ObstacleAudit(soft.halo, soft.contact), std::invalid_argument);
+  EXPECT_REFUSED(SurfacesAudit(rigid.halo, rigid.contact));
+  EXPECT_REFUSED(ObstacleAudit(soft.halo, soft.contact));
   SurfacesAudit audit(soft.halo, soft.contact);
-  EXPECT_THROW(audit.find(std::vector<double>(3)), std::invalid_argument);
+  EXPECT_REFUSED(audit.find(std::vector<double>(3)));
 }

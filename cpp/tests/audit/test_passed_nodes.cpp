@@ -4,10 +4,6 @@
 #include "threads.h"
 #include "two_sheets.h"
 #include <contactx/audit/passed_nodes.h>
-#include <gtest/gtest.h>
-#include <map>
-#include <numbers>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::audit;
@@ -28,10 +24,11 @@ struct Tips
   std::vector<double> x;
   std::shared_ptr<mesh::Halo> halo;
 
-  explicit Tips(int dim) : gdim(dim), below(dim), above(dim)
+  explicit Tips(int dim)
+      : gdim(dim), below(leaf(0, 0, 1, thickness, true)),
+        above(
+            leaf(length - overlap, 0.1, 0.9, thickness + distance_apart, false))
   {
-    add(below, 0, 0, 1, thickness, true);
-    add(above, length - overlap, 0.1, 0.9, thickness + distance_apart, false);
     for (std::int32_t& node : above.nodes)
       node += num_below();
     x = below.x;
@@ -82,32 +79,21 @@ struct Tips
                         0.1 * thickness);
   }
 
-  void add(Scene& scene, double from, double low, double high, double height,
-           bool up) const
+  Scene leaf(double from, double low, double high, double height, bool up) const
   {
-    constexpr int n = 25, wide = 2;
-    const int rows = gdim == 2 ? 1 : wide + 1;
-    for (int j = 0; j < rows; ++j)
-      for (int i = 0; i <= n; ++i)
-      {
-        const double along = from + length * i / n;
-        if (gdim == 2)
-          scene.node({along, height, 0});
-        else
-          scene.node({along, low + (high - low) * j / wide, height});
-      }
-    for (int j = 0; j < std::max(rows - 1, 1); ++j)
-      for (int i = 0; i < n; ++i)
-      {
-        const int a = j * (n + 1) + i, b = a + n + 1;
-        if (gdim == 2)
-          scene.facet(up ? std::vector<std::int32_t>{a + 1, a}
-                         : std::vector<std::int32_t>{a, a + 1});
-        else if (up)
-          scene.facet({a, a + 1, b, b + 1});
-        else
-          scene.facet({a, b, a + 1, b + 1});
-      }
+    const auto at = [&](double s, double t)
+    {
+      const double x = from + length * s;
+      return gdim == 2 ? Vector<3>{x, height, 0}
+                       : Vector<3>{x, low + (high - low) * t, height};
+    };
+    Scene scene = gdim == 2 ? line(25, [&](double s) { return at(s, 0); })
+                            : grid(25, 2, Cells::quadrilaterals, at);
+    // Turn facets over
+    if (up == (gdim == 2))
+      for (std::size_t i = gdim - 2; i < scene.nodes.size(); i += 2 * gdim - 2)
+        std::swap(scene.nodes[i], scene.nodes[i + 1]);
+    return scene;
   }
 };
 
@@ -221,42 +207,41 @@ Passed passed_on(int num_ranks, const TwoSheets& sheets,
   const DistributedScene parts(scene, num_ranks, 5, scattered);
   Passed result;
   std::mutex mutex;
-  on_ranks(num_ranks,
-           [&](ThreadRanks& ranks)
-           {
-             const auto halo = parts.halo(ranks);
-             const std::vector<geometry::Facets> sides{
-                 parts.own(*halo, 0, num_slave),
-                 parts.own(*halo, num_slave, scene.facets().size())};
-             std::vector<std::int32_t> every(halo->num_nodes());
-             std::iota(every.begin(), every.end(), 0);
-             const auto mesh = parts.mesh_nodes(*halo, every);
-             std::vector<double> x1(every.size() * g);
-             for (std::size_t i = 0; i < every.size(); ++i)
-               std::copy_n(end.begin() + g * mesh[i], g, x1.begin() + g * i);
-             std::array<FoundNodes, 2> found;
-             for (int k = 0; k < 2; ++k)
-             {
-               std::vector<std::int32_t> nodes;
-               for (std::int32_t i = 0; i < halo->num_owned(); ++i)
-                 if ((mesh[i] < sheets.num_slaves) == (k == 0))
-                   nodes.push_back(i);
-               found[k]
-                   = passed_nodes(*halo, sides[k].list(), sides[1 - k].list(),
-                                  halo->reference(), x1, nodes, 0.02);
-             }
-             const auto normals = normals_of_all(*halo, sides[0].list(), x1);
-             const std::lock_guard lock(mutex);
-             for (std::int32_t i = 0; i < halo->num_owned(); ++i)
-               result.normals[halo->original()[i]]
-                   = {normals.begin() + g * i, normals.begin() + g * (i + 1)};
-             if (ranks.rank() > 0 and result.found[0].first != -1)
-             {
-               for (int k = 0; k < 2; ++k)
-                 EXPECT_EQ(result.found[k].first, found[k].first);
-             }
-             result.found = found;
-           });
+  const auto work = [&](ThreadRanks& ranks)
+  {
+    const auto halo = parts.halo(ranks);
+    const std::vector<geometry::Facets> sides{
+        parts.own(*halo, 0, num_slave),
+        parts.own(*halo, num_slave, scene.facets().size())};
+    std::vector<std::int32_t> every(halo->num_nodes());
+    std::iota(every.begin(), every.end(), 0);
+    const auto mesh = parts.mesh_nodes(*halo, every);
+    std::vector<double> x1(every.size() * g);
+    for (std::size_t i = 0; i < every.size(); ++i)
+      std::copy_n(end.begin() + g * mesh[i], g, x1.begin() + g * i);
+    std::array<FoundNodes, 2> found;
+    for (int k = 0; k < 2; ++k)
+    {
+      std::vector<std::int32_t> nodes;
+      for (std::int32_t i = 0; i < halo->num_owned(); ++i)
+        if ((mesh[i] < sheets.num_slaves) == (k == 0))
+          nodes.push_back(i);
+      found[k] = passed_nodes(*halo, sides[k].list(), sides[1 - k].list(),
+                              halo->reference(), x1, nodes, 0.02);
+    }
+    const auto normals = normals_of_all(*halo, sides[0].list(), x1);
+    const std::lock_guard lock(mutex);
+    for (std::int32_t i = 0; i < halo->num_owned(); ++i)
+      result.normals[halo->original()[i]]
+          = {normals.begin() + g * i, normals.begin() + g * (i + 1)};
+    if (ranks.rank() > 0 and result.found[0].first != -1)
+    {
+      for (int k = 0; k < 2; ++k)
+        EXPECT_EQ(result.found[k].first, found[k].first);
+    }
+    result.found = found;
+  };
+  on_ranks(num_ranks, work);
   return result;
 }
 } // namespace
@@ -309,49 +294,46 @@ TEST(FoundNodes, AreThoseOfAllRanks)
   for (std::size_t i = 0; i < parts.nodes.owner.size(); ++i)
     if (parts.nodes.owner[i] > 0)
       least = std::min(least, parts.nodes.original[i]);
-  on_ranks(3,
-           [&](ThreadRanks& ranks)
-           {
-             const auto halo = parts.halo(ranks);
-             const auto x = halo->now()->x;
-             EXPECT_EQ(found_nodes(*halo, {}, x).count, 0);
-             // All nodes but those of the first rank
-             std::vector<std::int32_t> nodes;
-             for (std::int32_t i = 0;
-                  ranks.rank() > 0 and i < halo->num_owned(); ++i)
-               nodes.push_back(i);
-             const FoundNodes found = found_nodes(*halo, nodes, x);
-             EXPECT_EQ(found.count,
-                       std::ssize(parts.nodes.owner)
-                           - std::ranges::count(parts.nodes.owner, 0));
-             EXPECT_EQ(found.first, least);
-             const auto at = std::ranges::find(parts.nodes.original, least)
-                             - parts.nodes.original.begin();
-             const auto row = scene.x.begin() + 3 * at;
-             EXPECT_EQ(found.at, std::vector<double>(row, row + 3));
-           });
+  const auto work = [&](ThreadRanks& ranks)
+  {
+    const auto halo = parts.halo(ranks);
+    const auto x = halo->now()->x;
+    EXPECT_EQ(found_nodes(*halo, {}, x).count, 0);
+    // All nodes but those of the first rank
+    std::vector<std::int32_t> nodes;
+    for (std::int32_t i = 0; ranks.rank() > 0 and i < halo->num_owned(); ++i)
+      nodes.push_back(i);
+    const FoundNodes found = found_nodes(*halo, nodes, x);
+    EXPECT_EQ(found.count, std::ssize(parts.nodes.owner)
+                               - std::ranges::count(parts.nodes.owner, 0));
+    EXPECT_EQ(found.first, least);
+    const auto at = std::ranges::find(parts.nodes.original, least)
+                    - parts.nodes.original.begin();
+    const auto row = scene.x.begin() + 3 * at;
+    EXPECT_EQ(found.at, std::vector<double>(row, row + 3));
+  };
+  on_ranks(3, work);
 }
 
 TEST(Depths, TheLargestExcessOfAllRanksCounts)
 {
-  on_ranks(4,
-           [](ThreadRanks& ranks)
-           {
-             EXPECT_FALSE(deepest(ranks, std::nullopt, 2).has_value());
-             // The third and the fourth rank have the same excess
-             const double r = ranks.rank();
-             std::optional<Depth> mine;
-             if (r > 0)
-               mine = Depth{
-                   std::min(r, 2.) - 5, 0.1 * r, 10 * r, r > 1, {r, -r}};
-             const auto found = deepest(ranks, mine, 2);
-             ASSERT_TRUE(found.has_value());
-             EXPECT_EQ(found->excess, -3);
-             EXPECT_EQ(found->depth, 0.2);
-             EXPECT_EQ(found->size, 20);
-             EXPECT_TRUE(found->is_held);
-             EXPECT_EQ(found->at, (std::vector<double>{2, -2}));
-           });
+  const auto work = [](ThreadRanks& ranks)
+  {
+    EXPECT_FALSE(deepest(ranks, std::nullopt, 2).has_value());
+    // The third and the fourth rank have the same excess
+    const double r = ranks.rank();
+    std::optional<Depth> mine;
+    if (r > 0)
+      mine = Depth{std::min(r, 2.) - 5, 0.1 * r, 10 * r, r > 1, {r, -r}};
+    const auto found = deepest(ranks, mine, 2);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->excess, -3);
+    EXPECT_EQ(found->depth, 0.2);
+    EXPECT_EQ(found->size, 20);
+    EXPECT_TRUE(found->is_held);
+    EXPECT_EQ(found->at, (std::vector<double>{2, -2}));
+  };
+  on_ranks(4, work);
 }
 
 TEST(Depths, TheWorstIsTheFirstOfTheLargest)

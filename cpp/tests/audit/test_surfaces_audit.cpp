@@ -7,8 +7,6 @@
 #include <contactx/audit/penetration.h>
 #include <contactx/audit/surfaces_audit.h>
 #include <contactx/geometry/sizes.h>
-#include <gtest/gtest.h>
-#include <numbers>
 
 using namespace contactx;
 using namespace contactx::audit;
@@ -46,6 +44,19 @@ protected:
   double facet_size() const { return std::sqrt(gdim() - 1.) / 3; }
 };
 
+/// A contact of two sheets, and its audit from where it is.
+struct AuditedSheets : MovedContact
+{
+  SurfacesAudit audit;
+
+  AuditedSheets(const TwoSheets& sheets, double reach,
+                Sliding sliding = Sliding::finite)
+      : MovedContact(sheets, reach, sliding), audit(halo, contact)
+  {
+    audit.accept();
+  }
+};
+
 /// Depth that the mesh explains where a node of the facet is in contact, or
 /// none is
 double explained(const MovedContact& c, const TwoSheets& s, std::int32_t node,
@@ -66,13 +77,11 @@ TEST_P(AuditOfSurfaces, NothingIsFoundOnASoundContact)
     for (const double height : {0., 0.05})
     {
       const TwoSheets s = sheets(height);
-      MovedContact c(s, 1, sliding);
-      SurfacesAudit audit(c.halo, c.contact);
-      audit.accept();
+      AuditedSheets c(s, 1, sliding);
       const auto start = c.halo->now()->x;
       c.move(0, s.num_slaves, -height);
       c.contact->search();
-      const Findings found = audit.find(start);
+      const Findings found = c.audit.find(start);
       EXPECT_FALSE(found.is_fault());
       EXPECT_EQ(found.passed.count, 0);
       EXPECT_EQ(found.inside.count, 0);
@@ -87,9 +96,7 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
   const TwoSheets s = sheets(0.5);
   for (const Sliding sliding : {Sliding::finite, Sliding::small})
   {
-    MovedContact c(s, 0.2, sliding);
-    SurfacesAudit audit(c.halo, c.contact);
-    audit.accept();
+    AuditedSheets c(s, 0.2, sliding);
     // Of a master facet's size a 32nd part is allowed
     const double h = 3. / 5 * std::sqrt(gdim() - 1.);
     for (const double depth : {0.9 * h / 32, 1.1 * h / 32, 0.1})
@@ -97,7 +104,7 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
       c.move(0, s.num_slaves, -0.5);
       (*c.displacement)[2 * gdim() - 1] = -0.5 - depth;
       const auto x = c.halo->now()->x;
-      const Findings found = audit.find(x);
+      const Findings found = c.audit.find(x);
       EXPECT_EQ(found.passed.count, 0);
       ASSERT_EQ(found.inside.count, depth > h / 32) << depth;
       if (found.inside.count == 0)
@@ -111,12 +118,12 @@ TEST_P(AuditOfSurfaces, SlaveNodesBehindTheMasterWithoutAPair)
     }
     // An overlap that was asked for
     c.contact->set_offset(std::vector<double>(s.num_slaves, -0.1));
-    EXPECT_EQ(audit.find(c.halo->now()->x).inside.count, 0);
+    EXPECT_EQ(c.audit.find(c.halo->now()->x).inside.count, 0);
     c.contact->set_offset(std::vector<double>(s.num_slaves, 0.));
-    EXPECT_EQ(audit.find(c.halo->now()->x).inside.count, 1);
+    EXPECT_EQ(c.audit.find(c.halo->now()->x).inside.count, 1);
     // They may be there for good
-    audit.accept();
-    EXPECT_EQ(audit.find(c.halo->now()->x).inside.count, 0);
+    c.audit.accept();
+    EXPECT_EQ(c.audit.find(c.halo->now()->x).inside.count, 0);
   }
 }
 
@@ -136,12 +143,10 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
        {Case{0.05, 0}, Case{0.15, 0}, Case{0.3, power(4)},
         Case{0.8, power(4) + power(2)}})
   {
-    MovedContact c(s, 0.05, Sliding::finite);
-    SurfacesAudit audit(c.halo, c.contact);
-    audit.accept();
+    AuditedSheets c(s, 0.05);
     const auto start = c.halo->now()->x;
     c.move(0, s.num_slaves, -way);
-    const Findings found = audit.find(start);
+    const Findings found = c.audit.find(start);
     EXPECT_EQ(found.passed.count, count) << way;
     EXPECT_EQ(found.is_fault(), count > 0 or found.inside.count > 0);
     if (count == 0)
@@ -152,7 +157,7 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughWithinAStep)
               std::vector<double>(x.begin(), x.begin() + gdim()));
     EXPECT_EQ(found.inside.count, 0);
     EXPECT_FALSE(found.penetrates_too_deep);
-    EXPECT_EQ(audit.find(x).passed.count, 0) << "it was not in this step";
+    EXPECT_EQ(c.audit.find(x).passed.count, 0) << "it was not in this step";
   }
 }
 
@@ -160,32 +165,28 @@ TEST_P(AuditOfSurfaces, NodesThatWentThroughAndHaveAPair)
 {
   // As thin bodies have behind each other: the pairs are those of the start
   const TwoSheets s = sheets(0.1);
-  MovedContact c(s, 1, Sliding::finite);
-  SurfacesAudit audit(c.halo, c.contact);
-  audit.accept();
+  AuditedSheets c(s, 1);
   c.contact->search();
   for (const std::int8_t paired : c.contact->master()->paired())
     ASSERT_TRUE(paired);
   const auto start = c.halo->now()->x;
   c.move(0, s.num_slaves, -0.8);
   // All of them, and of the master two a line that are below the slave
-  EXPECT_EQ(audit.find(start).passed.count,
+  EXPECT_EQ(c.audit.find(start).passed.count,
             s.num_slaves + (gdim() == 2 ? 2 : 4));
   c.move(0, s.num_slaves, -0.1 - 1e-3 * facet_size());
-  EXPECT_EQ(audit.find(start).passed.count, 0);
+  EXPECT_EQ(c.audit.find(start).passed.count, 0);
 }
 
 TEST_P(AuditOfSurfaces, FacetsThatBecomeLongAllowNoMore)
 {
   // As those of leaves that have flown past each other
   const TwoSheets s = sheets(0.1);
-  MovedContact c(s, 0.05, Sliding::finite);
-  SurfacesAudit audit(c.halo, c.contact);
-  audit.accept();
+  AuditedSheets c(s, 0.05);
   const auto start = c.halo->now()->x;
   c.move(0, s.num_slaves, -0.3);
   c.move(s.num_nodes() - 1, s.num_nodes(), -50);
-  EXPECT_GT(audit.find(start).passed.count, 0);
+  EXPECT_GT(c.audit.find(start).passed.count, 0);
 }
 
 TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
@@ -194,16 +195,14 @@ TEST_P(AuditOfSurfaces, MasterThatReachesBetweenSlaveNodes)
   const TwoSheets s = sheets(height);
   for (const bool held : {false, true})
   {
-    MovedContact c(s, 1, Sliding::finite);
-    SurfacesAudit audit(c.halo, c.contact);
-    audit.accept();
+    AuditedSheets c(s, 1);
     const std::int32_t node = between(s);
     ASSERT_GE(node, 0);
     c.move(node, node + 1, height + depth);
     if (held)
       c.contact->nodes()->close(c.contact->slaves().facets()[0]);
     const auto x = c.halo->now()->x;
-    const Findings found = audit.find(x);
+    const Findings found = c.audit.find(x);
     EXPECT_EQ(found.passed.count + found.inside.count, 0);
     ASSERT_TRUE(found.deepest.has_value());
     const double allowed = explained(c, s, node, h, held);
@@ -224,12 +223,10 @@ TEST_P(AuditOfSurfaces, SmallSlidingSeesGapsThatAreLinear)
   // A master that is moved up at one node alone has the normals of before
   const double height = 0.28, depth = 0.02, h = facet_size();
   const TwoSheets s = sheets(height);
-  MovedContact c(s, 1, Sliding::small);
-  SurfacesAudit audit(c.halo, c.contact);
-  audit.accept();
+  AuditedSheets c(s, 1, Sliding::small);
   const std::int32_t node = between(s);
   c.move(node, node + 1, height + depth);
-  const Findings found = audit.find(c.halo->now()->x);
+  const Findings found = c.audit.find(c.halo->now()->x);
   ASSERT_TRUE(found.deepest.has_value());
   EXPECT_NEAR(found.deepest->depth, depth, 1e-14);
   EXPECT_NEAR(found.deepest->excess, depth * 256 / h, 1e-9);

@@ -6,8 +6,6 @@
 #include <contactx/problem/check_facets.h>
 #include <contactx/problem/check_facing.h>
 #include <contactx/problem/sides.h>
-#include <functional>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::tests;
@@ -151,12 +149,9 @@ TEST(ReferenceFacets, AFoldedSurfaceHasNoNormal)
   // Two segments that are back to back but for an angle
   const auto folded = [](double angle)
   {
-    Scene scene(2);
-    scene.node({0, 0, 0});
-    scene.node({1, 0, 0});
-    scene.node({1 - std::cos(angle), -std::sin(angle), 0});
-    scene.facet({0, 1});
-    scene.facet({1, 2});
+    const Scene scene(2,
+                      {{0, 0}, {1, 0}, {1 - std::cos(angle), -std::sin(angle)}},
+                      {{0, 1}, {1, 2}});
     const auto halo = mesh::serial_halo(scene.x, 2);
     const contact::SlaveNodes slaves(halo, scene.facets(), scene.facets());
     return refusal([&] { check_folds(*halo, slaves, "S"); });
@@ -207,31 +202,11 @@ TEST(ReferenceFacets, FoldsAreFoundOnAnyRanks)
 using FacingMaster = testing::TestWithParam<int>;
 
 /// A block of size 1 beside, on or off another one that is 1.5 wide.
-struct TwoBlocks
+struct TwoBlocks : Stacked
 {
-  Blocks blocks;
-
-  explicit TwoBlocks(int gdim, double x0 = 0.23) : blocks(gdim)
+  explicit TwoBlocks(int gdim, double low = 0.23)
+      : Stacked(gdim, low, 0.1, 1, 1.5)
   {
-    Vector<3> low{0.23, 0.23, 0.23}, high{1.23, 1.23, 1.23}, zero{};
-    low[0] = x0;
-    high[0] = x0 + 1;
-    low[gdim - 1] = 0.1;
-    high[gdim - 1] = 1.1;
-    Vector<3> end{1.5, 1.5, 1.5};
-    zero[gdim - 1] = -1;
-    end[gdim - 1] = 0;
-    blocks.add(3, low, high);
-    blocks.add(4, zero, end);
-  }
-
-  Side upper(int axis, bool is_upper) const
-  {
-    return blocks.side(0, axis, is_upper);
-  }
-  Side lower(int axis, bool is_upper) const
-  {
-    return blocks.side(1, axis, is_upper);
   }
 };
 

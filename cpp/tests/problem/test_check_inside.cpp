@@ -8,7 +8,6 @@
 #include <contactx/geometry/sphere.h>
 #include <contactx/problem/check_inside.h>
 #include <contactx/problem/sides.h>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::tests;
@@ -20,23 +19,14 @@ namespace
 using Inside = testing::TestWithParam<int>;
 
 /// A block of size 0.4 whose bottom is at a height, in a block below zero.
-struct Nested
+struct Nested : Stacked
 {
-  Blocks blocks;
   Side bottom, top; ///< of the small one, and of the large one
 
-  Nested(int gdim, double height, int n = 3, int m = 4, double size = 0.4)
-      : blocks(gdim)
+  Nested(int gdim, double height, int n = 3)
+      : Stacked(gdim, 0.53, height, 0.4, 1.5, n),
+        bottom(upper(gdim - 1, false)), top(lower(gdim - 1, true))
   {
-    Vector<3> low{0.53, 0.53, 0.53}, high{1.5, 1.5, 1.5};
-    low[gdim - 1] = height;
-    high[gdim - 1] = 0;
-    Vector<3> zero{};
-    zero[gdim - 1] = -1;
-    blocks.add(n, low, low + Vector<3>{size, size, size});
-    blocks.add(m, zero, high);
-    bottom = blocks.side(0, gdim - 1, false);
-    top = blocks.side(1, gdim - 1, true);
   }
 
   /// What is said of them, the small one being slave or master.

@@ -3,7 +3,6 @@
 
 #include "dense_algebra.h"
 #include <contactx/problem/condensed_solver.h>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -39,8 +38,7 @@ struct Pressed
       exact.bodies.problem().solve(dense, {.rtol = 1e-11, .max_it = 40});
       const std::vector<double>& u = *bodies.scene.u;
       const std::vector<double>& v = *exact.bodies.scene.u;
-      for (std::size_t i = 0; i < u.size(); ++i)
-        EXPECT_NEAR(u[i], v[i], 1e-9);
+      expect_near(u, v, 1e-9);
     }
   }
 
@@ -161,8 +159,7 @@ TEST(CondensedSolver, SoftNodesOfAnyStiffness)
       pressed.solver->solve(b, x);
       const std::vector<double> exact = solution(J, b);
       const double scale = math::column(exact).cwiseAbs().maxCoeff();
-      for (std::size_t i = 0; i < x.size(); ++i)
-        EXPECT_NEAR(x[i], exact[i], 1e-10 * scale);
+      expect_near(x, exact, 1e-10 * scale);
     }
     EXPECT_GT(count, 0);
     const auto found = pressed.solver->statistics();
@@ -231,8 +228,7 @@ TEST(CondensedSolver, SolvesForOtherFieldsTogether)
       b[i] = std::sin(1.0 + double(i));
     pressed.solver->solve(b, x);
     const std::vector<double> exact = solution(J, b);
-    for (std::size_t i = 0; i < x.size(); ++i)
-      EXPECT_NEAR(x[i], exact[i], 1e-8 * math::column(exact).norm());
+    expect_near(x, exact, 1e-8 * math::column(exact).norm());
     const auto found = pressed.solver->statistics();
     EXPECT_TRUE(found.direct.empty());
     EXPECT_TRUE(found.by_bodies.empty());
@@ -241,7 +237,6 @@ TEST(CondensedSolver, SolvesForOtherFieldsTogether)
     EXPECT_EQ(pressed.algebra->factorised["fields"], 1);
 
     pressed.solver->multiply(exact, y);
-    for (std::size_t i = 0; i < y.size(); ++i)
-      EXPECT_NEAR(y[i], b[i], 1e-9 * J.norm());
+    expect_near(y, b, 1e-9 * J.norm());
   }
 }

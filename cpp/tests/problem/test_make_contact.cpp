@@ -5,8 +5,6 @@
 #include <contactx/contact/surface_to_surface.h>
 #include <contactx/geometry/plane.h>
 #include <contactx/problem/make_contact.h>
-#include <gtest/gtest.h>
-#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::problem;
@@ -34,29 +32,25 @@ struct Input : SpringBodies
 };
 } // namespace
 
-TEST(MakeContact, OptionsDecideOnMethodAndLaw)
+TEST_2D_3D(MakeContact, OptionsDecideOnMethodAndLaw, dim)
 {
-  for (const int dim : {2, 3})
-  {
-    Input input(dim);
-    const auto plain = input.make();
-    EXPECT_FALSE(plain->law()->is_vector());
-    EXPECT_EQ(plain->history(), nullptr);
-    const auto rough
-        = input.make({.method = contact::Method::surface_to_surface,
-                      .sliding = contact::Sliding::small,
-                      .has_friction = true,
-                      .tangential_factor = 0.1});
-    EXPECT_NE(dynamic_cast<contact::SurfaceToSurface*>(rough->master().get()),
-              nullptr);
-    EXPECT_EQ(rough->sliding(), contact::Sliding::small);
-    EXPECT_NE(rough->history(), nullptr);
-    EXPECT_EQ(rough->nodes()->tangential_ratio, 0.1);
-    EXPECT_TRUE(input.make({.tied = true})->law()->is_tied());
-    for (const auto& contact : {plain, rough})
-      for (const std::int8_t paired : contact->master()->paired())
-        EXPECT_TRUE(paired);
-  }
+  Input input(dim);
+  const auto plain = input.make();
+  EXPECT_FALSE(plain->law()->is_vector());
+  EXPECT_EQ(plain->history(), nullptr);
+  const auto rough = input.make({.method = contact::Method::surface_to_surface,
+                                 .sliding = contact::Sliding::small,
+                                 .has_friction = true,
+                                 .tangential_factor = 0.1});
+  EXPECT_NE(dynamic_cast<contact::SurfaceToSurface*>(rough->master().get()),
+            nullptr);
+  EXPECT_EQ(rough->sliding(), contact::Sliding::small);
+  EXPECT_NE(rough->history(), nullptr);
+  EXPECT_EQ(rough->nodes()->tangential_ratio, 0.1);
+  EXPECT_TRUE(input.make({.tied = true})->law()->is_tied());
+  for (const auto& contact : {plain, rough})
+    for (const std::int8_t paired : contact->master()->paired())
+      EXPECT_TRUE(paired);
 }
 
 TEST(MakeContact, ALawOfOnesOwnCountsWhatStepsHaveSlipped)

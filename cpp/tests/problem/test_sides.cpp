@@ -9,8 +9,6 @@
 #include <contactx/contact/surface_to_surface.h>
 #include <contactx/kernel/layout.h>
 #include <contactx/problem/sides.h>
-#include <gtest/gtest.h>
-#include <limits>
 #include <typeinfo>
 
 using namespace contactx;
@@ -26,21 +24,14 @@ namespace
 using MadeSides = testing::TestWithParam<int>;
 
 /// A block on another one, 0.1 above it.
-struct Stack
+struct Stack : Stacked
 {
-  Blocks blocks;
   Side slave, master;
 
-  explicit Stack(int gdim) : blocks(gdim)
+  explicit Stack(int gdim)
+      : Stacked(gdim, 0.2, 0.1, 0.8, 2), slave(upper(gdim - 1, false)),
+        master(lower(gdim - 1, true))
   {
-    Vector<3> low{0.2, 0.2, 0.2}, high{1, 1, 1}, zero{}, end{2, 2, 2};
-    low[gdim - 1] = 0.1;
-    zero[gdim - 1] = -1;
-    end[gdim - 1] = 0;
-    blocks.add(3, low, high);
-    blocks.add(4, zero, end);
-    slave = blocks.side(0, gdim - 1, false);
-    master = blocks.side(1, gdim - 1, true);
   }
 
   /// Call work(rank_blocks, slave_nodes, master_facets) on ranks; what is

@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "stepped_bodies.h"
-#include <algorithm>
 #include <contactx/problem/step_plan.h>
 #include <contactx/problem/time_step.h>
-#include <functional>
-#include <gtest/gtest.h>
-#include <stdexcept>
 
 using namespace contactx;
 using namespace contactx::problem;
@@ -249,28 +245,24 @@ TEST(TimeStep, WrongArgumentsAreRefused)
   Falling s;
   TimeStep& step = s.make();
   const auto& system = s.problem().system();
-  EXPECT_THROW(TimeStep(nullptr, s.results_of, s.inertia),
-               std::invalid_argument);
-  EXPECT_THROW(TimeStep(system, {}, s.inertia), std::invalid_argument);
-  EXPECT_THROW(TimeStep(system, {nullptr}, s.inertia), std::invalid_argument);
-  EXPECT_THROW(TimeStep(system, s.results_of, nullptr), std::invalid_argument);
-  EXPECT_THROW(TimeStep(system, s.results_of, s.inertia, 0.0),
-               std::invalid_argument);
-  EXPECT_THROW(step.begin(0, s.velocity), std::invalid_argument);
-  EXPECT_THROW(step.begin(duration, {}), std::invalid_argument);
+  EXPECT_REFUSED(TimeStep(nullptr, s.results_of, s.inertia));
+  EXPECT_REFUSED(TimeStep(system, {}, s.inertia));
+  EXPECT_REFUSED(TimeStep(system, {nullptr}, s.inertia));
+  EXPECT_REFUSED(TimeStep(system, s.results_of, nullptr));
+  EXPECT_REFUSED(TimeStep(system, s.results_of, s.inertia, 0.0));
+  EXPECT_REFUSED(step.begin(0, s.velocity));
+  EXPECT_REFUSED(step.begin(duration, {}));
   std::vector<double> bad = s.velocity;
   bad[2] = NAN;
-  EXPECT_THROW(step.begin(duration, bad), std::invalid_argument);
+  EXPECT_REFUSED(step.begin(duration, bad));
   EXPECT_THROW(step.end(), std::logic_error);
   for (const double mass : {0.0, -1.0, double(INFINITY)})
   {
     s.inertia->mass[3] = mass;
-    EXPECT_THROW(TimeStep(system, s.results_of, s.inertia),
-                 std::invalid_argument);
+    EXPECT_REFUSED(TimeStep(system, s.results_of, s.inertia));
   }
   s.inertia->mass.clear();
-  EXPECT_THROW(TimeStep(system, s.results_of, s.inertia),
-               std::invalid_argument);
+  EXPECT_REFUSED(TimeStep(system, s.results_of, s.inertia));
 }
 
 /// All t that are attempted, failed ones negative, until the end or the last
@@ -351,18 +343,18 @@ TEST(StepPlan, ASavedPlaceIsGoneOnFrom)
   EXPECT_EQ(finer.t(), 0.125);
   EXPECT_EQ(finer.next(), 0.2);
   StepPlan shorter({0.1});
-  EXPECT_THROW(shorter.load(plan.given(), plan.place()), std::invalid_argument);
+  EXPECT_REFUSED(shorter.load(plan.given(), plan.place()));
   EXPECT_EQ(shorter.t(), 0);
 }
 
 TEST(StepPlan, WhatDoesNotFitIsRefused)
 {
-  EXPECT_THROW(StepPlan({}), std::invalid_argument);
-  EXPECT_THROW(StepPlan({0, 1}), std::invalid_argument);
-  EXPECT_THROW(StepPlan({0.5, 0.5}), std::invalid_argument);
-  EXPECT_THROW(StepPlan({1}, -1), std::invalid_argument);
-  EXPECT_THROW(StepPlan({1}, 41), std::invalid_argument);
-  EXPECT_THROW(StepPlan({1}, 6, -1), std::invalid_argument);
-  EXPECT_THROW(StepPlan::equal(0), std::invalid_argument);
+  EXPECT_REFUSED(StepPlan({}));
+  EXPECT_REFUSED(StepPlan({0, 1}));
+  EXPECT_REFUSED(StepPlan({0.5, 0.5}));
+  EXPECT_REFUSED(StepPlan({1}, -1));
+  EXPECT_REFUSED(StepPlan({1}, 41));
+  EXPECT_REFUSED(StepPlan({1}, 6, -1));
+  EXPECT_REFUSED(StepPlan::equal(0));
 }
 } // namespace
