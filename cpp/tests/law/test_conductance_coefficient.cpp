@@ -2,14 +2,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "asperities.h"
-#include "expect.h"
 #include "thread_ranks.h"
-#include <cmath>
 #include <contactx/law/conductance_coefficient.h>
 #include <contactx/math/vec.h>
-#include <gtest/gtest.h>
-#include <limits>
-#include <string>
 
 using namespace contactx;
 using namespace contactx::law;
@@ -84,29 +79,27 @@ TEST(Coefficient, DifferencesAreThoseOfAllRanks)
   mesh::OneRank alone;
   const law::Gradient all
       = law::Coefficient(asperities).gradient(p, gap, alone);
-  on_ranks(3,
-           [&](mesh::Ranks& ranks)
-           {
-             const law::Coefficient h(
-                 [&](auto pressures, auto gaps)
-                 {
-                   EXPECT_FALSE(pressures.empty());
-                   return asperities(pressures, gaps);
-                 });
-             const std::size_t first = ranks.rank() == 0 ? 0 : 1;
-             const std::size_t count = ranks.rank() == 0   ? 1
-                                       : ranks.rank() == 1 ? 0
-                                                           : 2;
-             const auto q = std::span(p).subspan(first, count);
-             const auto g = std::span(gap).subspan(first, count);
-             EXPECT_EQ(h.values(q, g).size(), count);
-             const law::Gradient here = h.gradient(q, g, ranks);
-             for (std::size_t i = 0; i < count; ++i)
-             {
-               EXPECT_EQ(here.by_pressure[i], all.by_pressure[first + i]);
-               EXPECT_EQ(here.by_gap[i], all.by_gap[first + i]);
-             }
-           });
+  const auto work = [&](mesh::Ranks& ranks)
+  {
+    const law::Coefficient h(
+        [&](auto pressures, auto gaps)
+        {
+          EXPECT_FALSE(pressures.empty());
+          return asperities(pressures, gaps);
+        });
+    const std::size_t first = ranks.rank() == 0 ? 0 : 1;
+    const std::size_t count = ranks.rank() == 0 ? 1 : ranks.rank() == 1 ? 0 : 2;
+    const auto q = std::span(p).subspan(first, count);
+    const auto g = std::span(gap).subspan(first, count);
+    EXPECT_EQ(h.values(q, g).size(), count);
+    const law::Gradient here = h.gradient(q, g, ranks);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      EXPECT_EQ(here.by_pressure[i], all.by_pressure[first + i]);
+      EXPECT_EQ(here.by_gap[i], all.by_gap[first + i]);
+    }
+  };
+  on_ranks(3, work);
 }
 
 TEST(Coefficient, RefusesWhatCannotBe)

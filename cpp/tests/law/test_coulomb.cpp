@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "generator.h"
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <contactx/law/coulomb.h>
 #include <gtest/gtest.h>
-#include <vector>
 
 using namespace contactx;
 using namespace contactx::law;
@@ -163,61 +159,6 @@ TYPED_TEST(Coulomb, VanishesWhereTheConditionsHold)
   // Friction along the slip
   const auto wrong = upright<D>(2, 1, 0, 0.25, 0.5);
   EXPECT_NE(wrong.terms(wrong.status()).value, Vector<D>{});
-}
-
-/// Central differences of the value by what `change` moves.
-template <int D, class Change>
-void expect_derivative(const CoulombNode<D>& node, std::int8_t status,
-                       const Matrix<D>& derivative, double size, Change change)
-{
-  const double h = 1e-5;
-  for (int j = 0; j < D; ++j)
-  {
-    auto plus = node, minus = node;
-    change(plus, j, h);
-    change(minus, j, -h);
-    const Vector<D> difference
-        = (0.5 / h) * (plus.terms(status).value - minus.terms(status).value);
-    for (int i = 0; i < D; ++i)
-      EXPECT_NEAR(derivative[i][j], difference[i], 1e-7 * size)
-          << "status " << int(status) << ", row " << i << ", column " << j;
-  }
-}
-
-TYPED_TEST(Coulomb, HasItsDifferenceQuotientsAsDerivatives)
-{
-  constexpr int D = TypeParam::value;
-  Generator random(2);
-  for (int i = 0; i < 400; ++i)
-  {
-    auto node = random_node<D>(random);
-    if (i % 2 == 1)
-      for (double& m : node.mobile)
-        m = random(0, 1) < 0.5;
-    for (std::int8_t status : {open, stick, slip})
-    {
-      const auto r = node.terms(status);
-      double size = node.area;
-      for (int k = 0; k < D; ++k)
-        size = std::max({size, largest(r.by_traction[k]), largest(r.by_slip[k]),
-                         largest(r.by_normal[k]), std::abs(r.by_gap[k])});
-      using Node = CoulombNode<D>;
-      expect_derivative<D>(node, status, r.by_traction, size,
-                           [](Node& n, int j, double h)
-                           { n.traction[j] += h; });
-      expect_derivative<D>(node, status, r.by_slip, size,
-                           [](Node& n, int j, double h) { n.slip[j] += h; });
-      // As the normal moves through space: not only on the unit sphere
-      expect_derivative<D>(node, status, r.by_normal, size,
-                           [](Node& n, int j, double h) { n.normal[j] += h; });
-      Matrix<D> by_gap{};
-      for (int k = 0; k < D; ++k)
-        by_gap[k][0] = r.by_gap[k];
-      expect_derivative<D>(node, status, by_gap, size,
-                           [](Node& n, int j, double h)
-                           { n.gap += j == 0 ? h : 0; });
-    }
-  }
 }
 
 TYPED_TEST(Coulomb, StickAndSlipMeetAtTheBound)
@@ -437,27 +378,4 @@ TYPED_TEST(CoulombStatus, SlipsAnyWayWithoutFriction)
   EXPECT_EQ((upright<D>(0, 1, 0, 1, 0).status()), open);
 }
 
-TYPED_TEST(CoulombStatus, CountsTheNodesThatChange)
-{
-  constexpr int D = TypeParam::value;
-  // open, stick, slip
-  const std::array nodes{upright<D>(-1, 0, 0, 0, 0.5),
-                         upright<D>(1, 0.25, 0, 0, 0.5),
-                         upright<D>(1, 1, 0, 0, 0.5)};
-  std::vector<double> traction, gap, normal, slips, c, friction;
-  for (const auto& node : nodes)
-  {
-    traction.insert(traction.end(), node.traction.begin(), node.traction.end());
-    normal.insert(normal.end(), node.normal.begin(), node.normal.end());
-    slips.insert(slips.end(), node.slip.begin(), node.slip.end());
-    gap.push_back(node.gap);
-    c.push_back(node.c);
-    friction.push_back(node.friction);
-  }
-  const FrictionalState state{D, traction, gap, normal, slips, c, friction};
-  std::array<std::int8_t, 3> status{stick, stick, stick};
-  EXPECT_EQ(frictional_status(state, 10, status), 2);
-  EXPECT_EQ(status, (std::array<std::int8_t, 3>{open, stick, slip}));
-  EXPECT_EQ(frictional_status(state, 10, status), 0);
-}
 } // namespace

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "node_states.h"
-#include <Eigen/Eigenvalues>
 #include <contactx/law/cone.h>
 #include <contactx/math/matrix.h>
 #include <gtest/gtest.h>

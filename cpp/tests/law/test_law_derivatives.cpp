@@ -76,9 +76,7 @@ std::unique_ptr<law::Law> law_of(const std::string& name, int n,
   if (name == "weakening")
     return std::make_unique<law::Coulomb>(weakening);
   auto coulomb = std::make_unique<law::Coulomb>();
-  std::vector<double> friction(n);
-  for (double& mu : friction)
-    mu = random(0.1, 1.2);
+  std::vector<double> friction = random.numbers(n, 0.1, 1.2);
   coulomb->set_friction(friction);
   return coulomb;
 }
@@ -86,7 +84,7 @@ std::unique_ptr<law::Law> law_of(const std::string& name, int n,
 class LawDerivatives : public testing::TestWithParam<int>
 {
 protected:
-  static constexpr int n = 60;
+  static constexpr int n = 200;
 };
 
 TEST_P(LawDerivatives, AreDifferencesOfTheValue)

@@ -1,11 +1,8 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "expect.h"
 #include "node_states.h"
 #include "thread_ranks.h"
-#include <gtest/gtest.h>
-#include <limits>
 
 using namespace contactx;
 using namespace contactx::law;
@@ -68,12 +65,10 @@ TEST(CoulombLaw, ChecksItsCoefficients)
   law::Coulomb law;
   const NodeState nodes(2, 3, true);
   for (double bad : {-0.5, double(NAN), infinity})
-    EXPECT_THROW(law.set_friction(std::vector{0.3, bad}),
-                 std::invalid_argument);
-  EXPECT_THROW(law.friction(nodes), std::invalid_argument);
+    EXPECT_REFUSED(law.set_friction(std::vector{0.3, bad}));
+  EXPECT_REFUSED(law.friction(nodes));
   law.set_friction(std::vector{0.3, 0.4});
-  EXPECT_THROW(law.set_friction(std::vector{-0.25, 0.4}),
-               std::invalid_argument);
+  EXPECT_REFUSED(law.set_friction(std::vector{-0.25, 0.4}));
   EXPECT_EQ(law.friction(nodes), (std::vector{0.3, 0.4}));
   EXPECT_EQ(refusal([&] { law.set_friction(std::vector{-0.125, -0.25, 0.3}); }),
             "friction is -0.25: give numbers of at least 0 (manual: "
@@ -93,12 +88,12 @@ TEST(CoulombLaw, ChecksTheBoundsOfAFunction)
   };
   const std::vector<double> ok{0.0, 0.5};
   EXPECT_NO_THROW(gives({ok, ok, ok}));
-  EXPECT_THROW(gives({{0.5}, ok, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({ok, ok, {0, 0, 0}}), std::invalid_argument);
-  EXPECT_THROW(gives({{0.5, -0.5}, ok, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({{0.5, NAN}, ok, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({ok, {0, NAN}, ok}), std::invalid_argument);
-  EXPECT_THROW(gives({ok, ok, {NAN, 0}}), std::invalid_argument);
+  EXPECT_REFUSED(gives({{0.5}, ok, ok}));
+  EXPECT_REFUSED(gives({ok, ok, {0, 0, 0}}));
+  EXPECT_REFUSED(gives({{0.5, -0.5}, ok, ok}));
+  EXPECT_REFUSED(gives({{0.5, NAN}, ok, ok}));
+  EXPECT_REFUSED(gives({ok, {0, NAN}, ok}));
+  EXPECT_REFUSED(gives({ok, ok, {NAN, 0}}));
 }
 
 TEST(CoulombLaw, ABoundOfTrescaDoesNotDependOnThePressure)
@@ -292,11 +287,11 @@ TEST(Laws, RefuseOtherMultipliers)
   for (const Law* law : std::initializer_list<const Law*>{&coulomb, &tied})
   {
     EXPECT_TRUE(law->is_vector());
-    EXPECT_THROW(law->evaluate(scalar), std::invalid_argument);
-    EXPECT_THROW(law->set_status(scalar, ranks), std::invalid_argument);
+    EXPECT_REFUSED(law->evaluate(scalar));
+    EXPECT_REFUSED(law->set_status(scalar, ranks));
   }
   EXPECT_FALSE(Frictionless().is_vector());
-  EXPECT_THROW(Frictionless().evaluate(vector), std::invalid_argument);
-  EXPECT_THROW(Frictionless().set_status(vector, ranks), std::invalid_argument);
+  EXPECT_REFUSED(Frictionless().evaluate(vector));
+  EXPECT_REFUSED(Frictionless().set_status(vector, ranks));
 }
 } // namespace

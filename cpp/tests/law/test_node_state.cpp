@@ -1,12 +1,9 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include "expect.h"
 #include "node_states.h"
 #include "thread_ranks.h"
 #include <contactx/law/slip_history.h>
-#include <gtest/gtest.h>
-#include <limits>
 
 using namespace contactx;
 using namespace contactx::law;
@@ -32,9 +29,9 @@ TEST(NodeState, BeginsOpen)
     EXPECT_TRUE(a->empty());
   EXPECT_EQ(vector.status, Flags(2, law::open));
   EXPECT_TRUE(std::isnan(vector.gap[1]));
-  EXPECT_THROW(law::NodeState(-1, 3, true), std::invalid_argument);
-  EXPECT_THROW(law::NodeState(1, 1, true), std::invalid_argument);
-  EXPECT_THROW(law::NodeState(1, 4, false), std::invalid_argument);
+  EXPECT_REFUSED(law::NodeState(-1, 3, true));
+  EXPECT_REFUSED(law::NodeState(1, 1, true));
+  EXPECT_REFUSED(law::NodeState(1, 4, false));
 }
 
 TEST(NodeState, HoldsWhatIsClosedOrWouldBe)
@@ -110,8 +107,7 @@ TEST(NodeState, ClosedNodesStickWhereThereIsFriction)
   EXPECT_EQ(vector.status, (Flags{law::stick, law::open, law::slip}));
   EXPECT_EQ(scalar.status, (Flags{law::slip, law::open, law::slip}));
   for (std::int32_t bad : {-1, 3})
-    EXPECT_THROW(vector.close(std::vector<std::int32_t>{1, bad}),
-                 std::invalid_argument);
+    EXPECT_REFUSED(vector.close(std::vector<std::int32_t>{1, bad}));
   EXPECT_EQ(vector.status[1], law::open);
 }
 
@@ -149,29 +145,7 @@ TEST(NodeState, FactorIsTheStiffnessOverTheArea)
            });
   nodes.set_factor(ranks, std::vector(3, 0.0));
   EXPECT_EQ(nodes.c, std::vector(3, 1.0));
-  EXPECT_THROW(nodes.set_factor(ranks, std::vector(2, 1.0)),
-               std::invalid_argument);
-}
-
-TEST(TouchingGap, IsAPartOfTheSizeInAnyUnit)
-{
-  const std::vector<double> x{0, 1, 2, -1, 1, 0.5};
-  mesh::OneRank ranks;
-  const double eps = std::numeric_limits<double>::epsilon();
-  EXPECT_DOUBLE_EQ(law::touching_gap(ranks, x, 2), 1e-12 * 2 + 16 * eps * 2);
-  for (double length : {1e-6, 1e6})
-  {
-    auto scaled = x;
-    for (double& value : scaled)
-      value *= length;
-    EXPECT_NEAR(law::touching_gap(ranks, scaled, 2),
-                length * law::touching_gap(ranks, x, 2), 1e-26 * length);
-  }
-  // Far from the origin positions are rounded by more
-  auto far = x;
-  for (double& value : far)
-    value += 1e6;
-  EXPECT_GT(law::touching_gap(ranks, far, 2), 16 * eps * 1e6);
+  EXPECT_REFUSED(nodes.set_factor(ranks, std::vector(2, 1.0)));
 }
 
 TEST(TouchingGap, IsThatOfAllRanks)
@@ -189,8 +163,8 @@ TEST(TouchingGap, IsThatOfAllRanks)
              });
   mesh::OneRank alone;
   EXPECT_EQ(law::touching_gap(alone, {}, 3), 0);
-  EXPECT_THROW(law::touching_gap(alone, x, 3), std::invalid_argument);
-  EXPECT_THROW(law::touching_gap(alone, x, 0), std::invalid_argument);
+  EXPECT_REFUSED(law::touching_gap(alone, x, 3));
+  EXPECT_REFUSED(law::touching_gap(alone, x, 0));
 }
 
 TEST(MeanNormal, HasUnitLengthWithoutDirectionsThatCannotMove)
@@ -216,7 +190,7 @@ TEST(MeanNormal, SlipIsAlongTheSurface)
   nodes.project(std::vector<double>{0, 0, 0, 0.5, 0, 0});
   // (0.5, 2, 3) - 2.7 (0.6, 0, 0.8)
   expect_near(nodes.slip, {1, 0, 0, -1.12, 2, 0.84}, 1e-15);
-  EXPECT_THROW(nodes.project(std::vector<double>{1}), std::invalid_argument);
+  EXPECT_REFUSED(nodes.project(std::vector<double>{1}));
   // Nodes with normals of their own keep what they have
   law::NodeState plain(1, 2, true);
   plain.normal = {0, 0.5};
@@ -259,9 +233,9 @@ TEST(SlipHistory, GoesOnFromWhatItGave)
   other.restore(history.slip(), history.total(), history.dissipation());
   other.add(nodes);
   EXPECT_EQ(other.total()[0], 10);
-  EXPECT_THROW(other.restore({1}, {1}, {1}), std::invalid_argument);
+  EXPECT_REFUSED(other.restore({1}, {1}, {1}));
   EXPECT_EQ(other.slip(), nodes.slip);
-  EXPECT_THROW(other.add(law::NodeState(2, 2, true)), std::invalid_argument);
-  EXPECT_THROW(other.add(law::NodeState(1, 2, false)), std::invalid_argument);
+  EXPECT_REFUSED(other.add(law::NodeState(2, 2, true)));
+  EXPECT_REFUSED(other.add(law::NodeState(1, 2, false)));
 }
 } // namespace

@@ -65,18 +65,6 @@ TEST(NormalStatus, AClosedNodeOpensOnlyWithoutPressure)
   }
 }
 
-TEST(NormalStatus, CountsTheNodesThatChange)
-{
-  const std::array p{1.0, 1.0, -1.0, -1.0, 1.0};
-  const std::array g{0.0, 0.0, 0.0, 0.0, std::nan("")};
-  const std::array c{1.0, 1.0, 1.0, 1.0, 1.0};
-  std::array<std::int8_t, 5> status{open, slip, open, slip, slip};
-  EXPECT_EQ(normal_status({p, g, c}, status), 3);
-  const std::array<std::int8_t, 5> expected{slip, slip, open, open, open};
-  EXPECT_EQ(status, expected);
-  EXPECT_EQ(normal_status({p, g, c}, status), 0);
-}
-
 TEST(NormalComplementarity, IsTheGapOnClosedNodesAndThePressureOnOpenOnes)
 {
   using Values = std::array<double, 3>;
@@ -92,22 +80,6 @@ TEST(NormalComplementarity, IsTheGapOnClosedNodesAndThePressureOnOpenOnes)
     const std::int8_t status = status_of(pressure, gap, 10);
     EXPECT_EQ(function_of(pressure, gap, 10, 2, status)[0], 0);
   }
-}
-
-TEST(NormalComplementarity, HasItsDifferenceQuotientsAsDerivatives)
-{
-  const double h = 1. / 1024; // linear on each branch: any step is exact
-  for (std::int8_t status : {open, stick, slip})
-    for (double p : {-1.0, 0.0, 2.0})
-      for (double g : {-0.5, 0.0, 0.25})
-      {
-        const auto at = [status](double pressure, double gap)
-        { return function_of(pressure, gap, 8, 3, status); };
-        EXPECT_DOUBLE_EQ(at(p, g)[1],
-                         (at(p + h, g)[0] - at(p - h, g)[0]) / (2 * h));
-        EXPECT_DOUBLE_EQ(at(p, g)[2],
-                         (at(p, g + h)[0] - at(p, g - h)[0]) / (2 * h));
-      }
 }
 
 TEST(NormalComplementarity, TreatsEachNodeOnItsOwn)
