@@ -3,14 +3,10 @@
 
 #include "saddle.h"
 #include "thread_ranks.h"
-#include <Eigen/Eigenvalues>
-#include <array>
 #include <contactx/condense/master_springs.h>
 #include <contactx/condense/multigrid.h>
 #include <contactx/condense/stiff_bodies.h>
 #include <contactx/law/normal.h>
-#include <gtest/gtest.h>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -30,45 +26,44 @@ Saddle symmetric(int gdim)
   return saddle;
 }
 
-TEST(DependentConstraints, ANodeThatIsSlaveHereAndMasterThere)
+TEST_2D_3D(DependentConstraints, ANodeThatIsSlaveHereAndMasterThere, gdim)
 {
-  for (const int gdim : {2, 3})
-    for (const int size : {1, gdim})
+  for (const int size : {1, gdim})
+  {
+    const SerialNodes nodes(8);
+    const std::int8_t held = size == 1 ? slip : stick;
+    const auto found = [&](const Saddle& saddle)
     {
-      const SerialNodes nodes(8);
-      const std::int8_t held = size == 1 ? slip : stick;
-      const auto found = [&](const Saddle& saddle)
-      {
-        const DependentConstraints all
-            = dependent_constraints(saddle.condensed().elimination(), nodes);
-        return std::pair(all.right.size(), all.left.size());
-      };
-      using Counts = std::pair<std::size_t, std::size_t>;
-      Saddle chain(gdim, 8,
-                   {{{0, 2}, {1, 5}, size, {held, held}},
-                    {{3, 4}, {2, 7}, size, {held, held}}},
-                   {}, 3);
-      // Of nodes 3 and 4 from node 2, each displacement of it that is
-      // eliminated
-      const std::size_t count = 2 * size * size;
-      EXPECT_EQ(found(chain), Counts(count, count));
-      // It is master by its forces alone
-      for (std::size_t i = 2 * size; i < chain.m; ++i)
-        for (int j = 0; j < gdim; ++j)
-          chain.contact(chain.n + i, 2 * gdim + j) = 0;
-      EXPECT_EQ(found(chain), Counts(0, count));
-      // Open there, or no master there
-      Saddle half(gdim, 8,
-                  {{{0, 2}, {1, 5}, size, {held, open}},
-                   {{3, 4}, {2, 7}, size, {held, held}}},
-                  {}, 3);
-      EXPECT_EQ(found(half), Counts(0, 0));
-      Saddle apart(gdim, 8,
-                   {{{0, 2}, {1, 5}, size, {held, held}},
-                    {{3, 4}, {6, 7}, size, {held, held}}},
-                   {}, 3);
-      EXPECT_EQ(found(apart), Counts(0, 0));
-    }
+      const DependentConstraints all
+          = dependent_constraints(saddle.condensed().elimination(), nodes);
+      return std::pair(all.right.size(), all.left.size());
+    };
+    using Counts = std::pair<std::size_t, std::size_t>;
+    Saddle chain(gdim, 8,
+                 {{{0, 2}, {1, 5}, size, {held, held}},
+                  {{3, 4}, {2, 7}, size, {held, held}}},
+                 {}, 3);
+    // Of nodes 3 and 4 from node 2, each displacement of it that is
+    // eliminated
+    const std::size_t count = 2 * size * size;
+    EXPECT_EQ(found(chain), Counts(count, count));
+    // It is master by its forces alone
+    for (std::size_t i = 2 * size; i < chain.m; ++i)
+      for (int j = 0; j < gdim; ++j)
+        chain.contact(chain.n + i, 2 * gdim + j) = 0;
+    EXPECT_EQ(found(chain), Counts(0, count));
+    // Open there, or no master there
+    Saddle half(gdim, 8,
+                {{{0, 2}, {1, 5}, size, {held, open}},
+                 {{3, 4}, {2, 7}, size, {held, held}}},
+                {}, 3);
+    EXPECT_EQ(found(half), Counts(0, 0));
+    Saddle apart(gdim, 8,
+                 {{{0, 2}, {1, 5}, size, {held, held}},
+                  {{3, 4}, {6, 7}, size, {held, held}}},
+                 {}, 3);
+    EXPECT_EQ(found(apart), Counts(0, 0));
+  }
 }
 
 TEST(DependentConstraints, TheOtherNodeIsOfAnotherRank)
@@ -77,23 +72,22 @@ TEST(DependentConstraints, TheOtherNodeIsOfAnotherRank)
   const auto count = [](const std::vector<Contact>& others)
   {
     std::array<std::size_t, 2> found{};
-    on_ranks(
-        2,
-        [&](Ranks& ranks)
-        {
-          const bool is_first = ranks.rank() == 0;
-          Saddle saddle
-              = is_first
-                    ? Saddle(3, 6, {{{0, 2}, {1, 5}, 3, {stick, stick}}}, {}, 3)
-                    : Saddle(3, 8, others, {}, 4);
-          const NumberedNodes nodes
-              = is_first ? NumberedNodes(ranks, {0, 1, 2, 3, 4, 5}, 5)
-                         : NumberedNodes(ranks, {5, 6, 7, 8, 9, 10, 11, 12}, 8);
-          const DependentConstraints all
-              = dependent_constraints(saddle.condensed().elimination(), nodes);
-          EXPECT_EQ(all.right.size(), all.left.size());
-          found[ranks.rank()] = all.right.size();
-        });
+    const auto work = [&](Ranks& ranks)
+    {
+      const bool is_first = ranks.rank() == 0;
+      Saddle saddle
+          = is_first
+                ? Saddle(3, 6, {{{0, 2}, {1, 5}, 3, {stick, stick}}}, {}, 3)
+                : Saddle(3, 8, others, {}, 4);
+      const NumberedNodes nodes
+          = is_first ? NumberedNodes(ranks, {0, 1, 2, 3, 4, 5}, 5)
+                     : NumberedNodes(ranks, {5, 6, 7, 8, 9, 10, 11, 12}, 8);
+      const DependentConstraints all
+          = dependent_constraints(saddle.condensed().elimination(), nodes);
+      EXPECT_EQ(all.right.size(), all.left.size());
+      found[ranks.rank()] = all.right.size();
+    };
+    on_ranks(2, work);
     return found;
   };
   using Counts = std::array<std::size_t, 2>;
@@ -123,37 +117,34 @@ TEST(DependentConstraints, MarksReachOtherRanks)
            });
 }
 
-TEST(DependentConstraints, SymmetricWithoutFriction)
+TEST_2D_3D(DependentConstraints, SymmetricWithoutFriction, gdim)
 {
-  for (const int gdim : {2, 3})
-  {
-    // On both ranks, and on one alone
-    for (const bool is_both : {true, false})
-      on_ranks(2,
-               [=](Ranks& ranks)
-               {
-                 Saddle mine = symmetric(gdim);
-                 if (ranks.rank() == 1 and not is_both)
-                   mine.contact(gdim, mine.n) += 1e-6;
-                 const std::int64_t first = 6 * ranks.rank();
-                 const NumberedNodes nodes(ranks,
-                                           {first, first + 1, first + 2,
-                                            first + 3, first + 4, first + 5},
-                                           6);
-                 EXPECT_EQ(is_symmetric(mine.condensed().elimination(), nodes),
-                           is_both);
-               });
+  // On both ranks, and on one alone
+  for (const bool is_both : {true, false})
+    on_ranks(2,
+             [=](Ranks& ranks)
+             {
+               Saddle mine = symmetric(gdim);
+               if (ranks.rank() == 1 and not is_both)
+                 mine.contact(gdim, mine.n) += 1e-6;
+               const std::int64_t first = 6 * ranks.rank();
+               const NumberedNodes nodes(ranks,
+                                         {first, first + 1, first + 2,
+                                          first + 3, first + 4, first + 5},
+                                         6);
+               EXPECT_EQ(is_symmetric(mine.condensed().elimination(), nodes),
+                         is_both);
+             });
 
-    Saddle saddle = symmetric(gdim);
-    const SerialNodes all(6);
-    EXPECT_TRUE(is_symmetric(saddle.condensed().elimination(), all));
-    // A master's force, or its part in the constraint, differs
-    saddle.contact(gdim, saddle.n) += 1e-6;
-    EXPECT_FALSE(is_symmetric(saddle.condensed().elimination(), all));
-    saddle = symmetric(gdim);
-    saddle.contact(saddle.n + 1, 5 * gdim) = 0;
-    EXPECT_FALSE(is_symmetric(saddle.condensed().elimination(), all));
-  }
+  Saddle saddle = symmetric(gdim);
+  const SerialNodes all(6);
+  EXPECT_TRUE(is_symmetric(saddle.condensed().elimination(), all));
+  // A master's force, or its part in the constraint, differs
+  saddle.contact(gdim, saddle.n) += 1e-6;
+  EXPECT_FALSE(is_symmetric(saddle.condensed().elimination(), all));
+  saddle = symmetric(gdim);
+  saddle.contact(saddle.n + 1, 5 * gdim) = 0;
+  EXPECT_FALSE(is_symmetric(saddle.condensed().elimination(), all));
 }
 
 TEST(DependentConstraints, NotSymmetricWithFriction)
@@ -208,7 +199,7 @@ TEST(Multigrid, TheBoundHoldsForAllDisplacements)
     is_sharp = is_sharp or energy > 0.5 * most;
   }
   EXPECT_TRUE(is_sharp);
-  EXPECT_THROW(bound(elimination, nodes, Column(1, 0)), std::invalid_argument);
+  EXPECT_REFUSED(bound(elimination, nodes, Column(1, 0)));
 }
 
 /// Eigenvalues of a matrix with a diagonal, without some unknowns
@@ -341,8 +332,7 @@ TEST(Multigrid, SpringsOfWhatIsNotEliminated)
         EXPECT_EQ(found(i, j), taken[i] or taken[j] ? 0 : 1 + i + 12 * j + own);
       }
   }
-  EXPECT_THROW(elastic(elimination, nodes, soft, Column(1, 0)),
-               std::invalid_argument);
+  EXPECT_REFUSED(elastic(elimination, nodes, soft, Column(1, 0)));
 }
 
 /// Nodes 0, 1, 2 are slaves, 4, 5, 6 their masters
@@ -405,8 +395,7 @@ TEST_P(MasterSprings, AreNoneWithoutStiffnessAndRefuseWhatDoesNotFit)
   const Condensation condensed = saddle({stick, slip, stick}).condensed();
   EXPECT_EQ(master_springs(condensed, std::vector<double>(n(), 0)),
             std::vector<double>(n(), 0));
-  EXPECT_THROW(master_springs(condensed, std::vector<double>(n() + 1)),
-               std::invalid_argument);
+  EXPECT_REFUSED(master_springs(condensed, std::vector<double>(n() + 1)));
 }
 
 INSTANTIATE_TEST_SUITE_P(InSpace, MasterSprings, testing::Values(2, 3));
@@ -457,7 +446,7 @@ TEST_F(StiffBodies, RefuseADiagonalThatDoesNotFit)
   const auto nodes = std::make_shared<mesh::SerialNodes>(4);
   const mesh::Bodies bodies(cells, 4, 1, original, nodes);
   const Saddle saddle(gdim, 4, {{{0}, {1, 2}, gdim, {stick}}}, {}, 4);
-  EXPECT_THROW(stiff_bodies(saddle.condensed(), bodies, std::vector<double>(5)),
-               std::invalid_argument);
+  EXPECT_REFUSED(
+      stiff_bodies(saddle.condensed(), bodies, std::vector<double>(5)));
 }
 } // namespace

@@ -3,10 +3,7 @@
 
 #include "expect.h"
 #include "saddle.h"
-#include <algorithm>
 #include <contactx/law/normal.h>
-#include <gtest/gtest.h>
-#include <string>
 
 using namespace contactx;
 using namespace contactx::condense;
@@ -50,6 +47,8 @@ class Eliminated : public testing::TestWithParam<int>
 {
 protected:
   int gdim = GetParam();
+  std::vector<int> axes
+      = gdim == 2 ? std::vector{0, 1} : std::vector{0, 1, 2}; ///< all of them
 };
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, Eliminated, testing::Values(2, 3));
@@ -136,8 +135,6 @@ TEST_P(Eliminated, PrescribedDisplacementsOfSlaveNodesAndMasters)
 
 TEST_P(Eliminated, AllDisplacementsOfASlaveNodePrescribed)
 {
-  std::vector<int> axes{0, 1, 2};
-  axes.resize(gdim);
   // With friction the law alone gives its traction
   Saddle vectors(gdim, 6, {{{0, 2}, {1, 5}, gdim, {stick, stick}}},
                  along(gdim, {0}, axes), 1);
@@ -208,8 +205,6 @@ TEST_P(Eliminated, SoftNodesFeelTheirNeighbours)
 
 TEST_P(Eliminated, SoftNodesWithoutADisplacementForThemselves)
 {
-  std::vector<int> axes{0, 1, 2};
-  axes.resize(gdim);
   // Node 0 is prescribed; node 4 is slave of two contacts along one axis
   Saddle saddle(gdim, 7,
                 {{{0, 4}, {1, 5}, 1, {slip, slip}, {0.3, 1e-3}},
@@ -294,8 +289,6 @@ TEST_P(Eliminated, MultipliersOfPrescribedDisplacementsMayStayUnknowns)
 
 TEST_P(Eliminated, WhatASingularLawDoesNotGiveMayStayUnknown)
 {
-  std::vector<int> axes{0, 1, 2};
-  axes.resize(gdim);
   for (unsigned seed = 0; seed < 10; ++seed)
   {
     Saddle saddle(gdim, 7, {{{0, 4}, {1, 2, 3}, gdim, {slip, slip}}},
@@ -314,8 +307,6 @@ TEST_P(Eliminated, WhatASingularLawDoesNotGiveMayStayUnknown)
 
 TEST_P(Eliminated, WhatNoFreeMasterHoldsIsNotHeld)
 {
-  std::vector<int> axes{0, 1, 2};
-  axes.resize(gdim);
   Saddle saddle(gdim, 5, {{{0}, {1, 2}, gdim, {stick}}},
                 along(gdim, {0, 1, 2}, axes), 3);
   saddle.contacts[0].by_multiplier.assign(gdim * gdim, 0);
@@ -411,13 +402,13 @@ TEST_P(Eliminated, ArraysThatDoNotFitAreRefused)
 
   const Condensation condensation = whole.condensed();
   Column d(whole.m, 0), u(whole.n, 0), few(1, 0);
-  EXPECT_THROW(condensation.right_hand_side(few), std::invalid_argument);
-  EXPECT_THROW(condensation.recover(few, u, u, d), std::invalid_argument);
+  EXPECT_REFUSED(condensation.right_hand_side(few));
+  EXPECT_REFUSED(condensation.recover(few, u, u, d));
   // The last row that gives a multiplier is of node 2
   const Column too_few(3 * gdim - 1, 0);
-  EXPECT_THROW(condensation.recover(d, too_few, u, d), std::invalid_argument);
-  EXPECT_THROW(condensation.recover(d, u, few, d), std::invalid_argument);
-  EXPECT_THROW(condensation.recover(d, u, u, few), std::invalid_argument);
+  EXPECT_REFUSED(condensation.recover(d, too_few, u, d));
+  EXPECT_REFUSED(condensation.recover(d, u, few, d));
+  EXPECT_REFUSED(condensation.recover(d, u, u, few));
 }
 
 TEST(Blocks, SortedFromRows)
@@ -450,11 +441,11 @@ TEST(Blocks, ArraysThatAreNoMatrixAreRefused)
   { sorted({offsets, columns, of}, n); };
   EXPECT_NO_THROW(sort({0, 1, 2}, {0, 1}, values, 1));
   for (const Ints& offsets : {Ints{0, 2, 1}, {1, 1, 2}})
-    EXPECT_THROW(sort(offsets, {0, 1}, values, 1), std::invalid_argument);
-  EXPECT_THROW(sort({}, {0, 1}, values, 0), std::invalid_argument);
+    EXPECT_REFUSED(sort(offsets, {0, 1}, values, 1));
+  EXPECT_REFUSED(sort({}, {0, 1}, values, 0));
   for (const Ints& columns : {Ints{0, 2}, {0, -1}})
-    EXPECT_THROW(sort({0, 1, 2}, columns, values, 1), std::invalid_argument);
-  EXPECT_THROW(sort({0, 1, 2}, {0, 1}, few, 1), std::invalid_argument);
-  EXPECT_THROW(sort({0, 1, 2}, {0, 1}, values, 3), std::invalid_argument);
+    EXPECT_REFUSED(sort({0, 1, 2}, columns, values, 1));
+  EXPECT_REFUSED(sort({0, 1, 2}, {0, 1}, few, 1));
+  EXPECT_REFUSED(sort({0, 1, 2}, {0, 1}, values, 3));
 }
 } // namespace

@@ -1,7 +1,6 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
-#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "saddle.h"

@@ -3,8 +3,6 @@
 
 #include "slave_sheet.h"
 #include <contactx/results/recovery.h>
-#include <gtest/gtest.h>
-#include <numeric>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -318,8 +316,7 @@ void expect_no_change_by_a_motion(Facets kind, Generator& random)
     Values result;
     for (std::size_t i = 0; i < values.size(); i += D)
     {
-      Vector<D> v;
-      std::copy_n(values.begin() + i, D, v.begin());
+      auto v = row<D>(values, i / D);
       v = is_place ? motion(v) : motion.rotate(v);
       result.insert(result.end(), v.begin(), v.end());
     }
@@ -582,8 +579,7 @@ TEST(RecoveryChange, IsThatOfTheForceOverTheSumOfTheNodes)
   EXPECT_EQ(results::recovery_change(alone, before, before, 2), 0);
   const Values none(4, 0);
   EXPECT_EQ(results::recovery_change(alone, none, none, 2), 0);
-  EXPECT_THROW(results::recovery_change(alone, before, Values(2), 2),
-               std::invalid_argument);
+  EXPECT_REFUSED(results::recovery_change(alone, before, Values(2), 2));
 }
 
 TEST(Recovery, RefusesWhatDoesNotFit)
@@ -592,13 +588,10 @@ TEST(Recovery, RefusesWhatDoesNotFit)
   const State s(Cells::triangles, random, 2);
   const results::Recovery recovery = s.recovery();
   const Values few(2);
-  EXPECT_THROW(recovery.pressure(few, s.area, s.closed), std::invalid_argument);
-  EXPECT_THROW(recovery.pressure(s.area, few, s.closed), std::invalid_argument);
-  EXPECT_THROW(recovery.tractions(s.normal, few, s.area, s.closed),
-               std::invalid_argument);
-  EXPECT_THROW(results::Recovery(slave_nodes(s.scene), few, 3),
-               std::invalid_argument);
-  EXPECT_THROW(results::Recovery(slave_nodes(s.scene), s.scene.x, 4),
-               std::invalid_argument);
-  EXPECT_THROW(results::Recovery(nullptr, s.scene.x, 3), std::invalid_argument);
+  EXPECT_REFUSED(recovery.pressure(few, s.area, s.closed));
+  EXPECT_REFUSED(recovery.pressure(s.area, few, s.closed));
+  EXPECT_REFUSED(recovery.tractions(s.normal, few, s.area, s.closed));
+  EXPECT_REFUSED(results::Recovery(slave_nodes(s.scene), few, 3));
+  EXPECT_REFUSED(results::Recovery(slave_nodes(s.scene), s.scene.x, 4));
+  EXPECT_REFUSED(results::Recovery(nullptr, s.scene.x, 3));
 }

@@ -3,7 +3,6 @@
 
 #include "contact_scene.h"
 #include <contactx/results/wetted.h>
-#include <gtest/gtest.h>
 
 using namespace contactx;
 using namespace contactx::contact;
@@ -23,8 +22,7 @@ struct WettedSheets
 
   explicit WettedSheets(int dim, mesh::Ranks* ranks = nullptr)
       : scene(dim, 0.05, Cells::mixed, ranks),
-        contact(scene.contact<NodeToSurface>(
-            std::make_shared<law::Frictionless>())),
+        contact(scene.contact<NodeToSurface>()),
         master(scene.mesh.here(scene.sheets.master, false))
   {
     contact->search();

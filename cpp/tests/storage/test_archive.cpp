@@ -5,7 +5,6 @@
 #include "thread_ranks.h"
 #include <contactx/storage/archive.h>
 #include <contactx/version.h>
-#include <mutex>
 
 using namespace contactx;
 using namespace contactx::storage;

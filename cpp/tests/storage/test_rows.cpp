@@ -29,23 +29,22 @@ std::vector<std::int64_t> shuffled(std::int64_t n, const mesh::Ranks& ranks)
 std::vector<std::byte> moved(int size, std::int64_t n, int width)
 {
   std::vector<std::byte> all(n * sizeof(std::int64_t));
-  tests::on_ranks(
-      size,
-      [&](mesh::Ranks& ranks)
-      {
-        const auto mine = shuffled(n, ranks);
-        std::vector<std::int64_t> keys;
-        for (const std::int64_t i : mine)
-          for (int k = 0; k < width; ++k)
-            keys.push_back(k == 0 ? i % 7 : i * k);
-        const Rows rows(ranks, keys, width);
-        EXPECT_EQ(rows.digest().count, n);
-        const auto given = std::as_bytes(std::span(mine));
-        const auto share = rows.to_share(given, sizeof(std::int64_t));
-        ASSERT_EQ(share.size(), rows.share() * sizeof(std::int64_t));
-        std::ranges::copy(share, all.begin() + rows.first() * 8);
-        EXPECT_TRUE(std::ranges::equal(rows.from_share(share, 8), given));
-      });
+  const auto work = [&](mesh::Ranks& ranks)
+  {
+    const auto mine = shuffled(n, ranks);
+    std::vector<std::int64_t> keys;
+    for (const std::int64_t i : mine)
+      for (int k = 0; k < width; ++k)
+        keys.push_back(k == 0 ? i % 7 : i * k);
+    const Rows rows(ranks, keys, width);
+    EXPECT_EQ(rows.digest().count, n);
+    const auto given = std::as_bytes(std::span(mine));
+    const auto share = rows.to_share(given, sizeof(std::int64_t));
+    ASSERT_EQ(share.size(), rows.share() * sizeof(std::int64_t));
+    std::ranges::copy(share, all.begin() + rows.first() * 8);
+    EXPECT_TRUE(std::ranges::equal(rows.from_share(share, 8), given));
+  };
+  tests::on_ranks(size, work);
   return all;
 }
 } // namespace
