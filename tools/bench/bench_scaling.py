@@ -3,12 +3,13 @@
 """Several ranks: how much faster two of them are, and what a rank sends on up to 64.
 
 Strong scaling: the common Hertz problem, wall seconds from the read mesh to the converged solution
-on one and two ranks. Weak scaling: a slab dragged along a base, both as long as there are ranks;
-what the rank that sends most sends in a search, and in an iteration besides, with the halo that it
-has. Boxes around the ranks' surfaces are gathered by all, so that they pass through every rank; all
-else goes to neighbours. The counts need no cores of their own, so that ranks may share them; times
-are those of the ranks that have one. In the partition "shifted" all ranks have as much to do and
-the base below a rank's part of the slab belongs to two; "default" is that of DOLFINx.
+on one and two ranks, beside those of one linear solve of its mesh. Weak scaling: a slab dragged
+along a base, both as long as there are ranks; what the rank that sends most sends in a search, and
+in an iteration besides, with the halo that it has. Boxes around the surfaces of ranks that have
+facets are gathered by all, so that they pass through every rank; all else goes to neighbours. The
+counts need no cores of their own, so that ranks may share them; times are those of the ranks that
+have one. In the partition "shifted" all ranks have as much to do and the base below a rank's part
+of the slab belongs to two; "default" is that of DOLFINx.
 
     python tools/bench/bench_scaling.py 0.02 0.01
 """
@@ -16,34 +17,34 @@ the base below a rank's part of the slab belongs to two; "default" is that of DO
 from __future__ import annotations
 
 import os
+import statistics
 import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import bench_limit
 import hertz_case
 import runner
 import tables
 
-SIZES = (0.01, 0.005, 0.0035)
+SIZES = (0.01, 0.005)
 RANKS = (1, 2, 4, 8, 16, 32, 64)
-RUNS = 3
+RUNS = 5
 METHODS = ("node-to-surface", "surface-to-surface")
 
 STRONG = [
     ("h", "h", "g"),
-    ("sliding", "sliding", "s"),
-    ("ranks", "ranks", "d"),
+    ("scene", "scene", "s"),
+    ("friction", "friction", "g"),
     ("dofs", "dofs", ",d"),
     ("it", "iterations", "d"),
+    ("of two", "iterations of two", "d"),
     ("Krylov", "krylov", "d"),
+    ("of two", "krylov of two", "d"),
     ("wall s", "wall", ".2f"),
-    ("one: n", "ratio", ".2f"),
-    ("set-up s", "setup", ".2f"),
-    ("settle s", "settle s", ".2f"),
-    ("residual s", "residual s", ".2f"),
-    ("Jacobian s", "Jacobian s", ".2f"),
-    ("linear s", "linear solve s", ".2f"),
-    ("4F", "force", ".9f"),
+    ("of two", "wall of two", ".2f"),
+    ("one: two", "ratio", ".2f"),
+    ("over that\nof the solve", "efficiency", ".2f"),
 ]
 WEAK = [
     ("dim", "dim", "d"),
@@ -68,24 +69,44 @@ WEAK = [
 
 
 def strong(
-    sizes: Iterable[float], slidings: Sequence[str] = ("small", "finite")
+    sizes: Iterable[float],
+    methods: Sequence[str] = METHODS,
+    frictions: Sequence[float] = bench_limit.FRICTION,
 ) -> list[dict[str, Any]]:
-    """Measure the common Hertz problem on one and two ranks; the best of some runs counts."""
+    """Measure the common Hertz problem on one and two ranks in turn, and a linear solve.
+
+    Wall seconds are medians. "efficiency" is how often two ranks are as fast as one, over how often
+    they are in the linear solve.
+    """
     rows = []
     for h in sizes:
         path = str(hertz_case.mesh_file(h))
-        for sliding in slidings:
-            alone = 0.0
-            for ranks in (1, 2):
-                job = {"path": path, "sliding": sliding}
-                runs = [runner.on_ranks("scaling_case:strong", ranks, **job) for _ in range(RUNS)]
-                whole = [run for run in runs if "failed" not in run]
-                row = min(whole, key=lambda run: run["wall"]) if whole else runs[0]
-                del row["path"]
-                if "failed" not in row:
-                    alone = row["wall"] if ranks == 1 else alone
-                    row["ratio"] = alone / row["wall"]
-                rows.append({"h": h, **row})
+        jobs: list[tuple[str, dict[str, Any]]] = [("linear", {})]
+        jobs += [("contact", {"method": m, "friction": f}) for m in methods for f in frictions]
+        runs = [
+            [
+                [runner.on_ranks(f"bench_limit:{name}", n, path=path, **job) for n in (1, 2)]
+                for name, job in jobs
+            ]
+            for _ in range(RUNS)
+        ]
+        of_solve = 0.0
+        for k, (_, job) in enumerate(jobs):
+            row = {"h": h, "scene": job.get("method", bench_limit.LIMIT), **job}
+            found = [one for run in runs for one in run[k]]
+            failed = [one["failed"] for one in found if "failed" in one]
+            if failed:
+                rows.append({**row, "failed": failed[0]})
+                continue
+            one, two = found[-2:]
+            walls = [statistics.median(each["wall"] for each in found[n::2]) for n in (0, 1)]
+            for name in ("dofs", "iterations", "krylov"):
+                row |= {name: one[name]} if name in one else {}
+            for name in ("iterations", "krylov"):
+                row |= {f"{name} of two": two[name]} if name in two else {}
+            row |= {"wall": walls[0], "wall of two": walls[1], "ratio": walls[0] / walls[1]}
+            of_solve = of_solve or row["ratio"]
+            rows.append({**row, "efficiency": row["ratio"] / of_solve})
     return rows
 
 
@@ -117,7 +138,7 @@ def main(argv: Sequence[str]) -> list[dict[str, Any]]:
     """Measure and print."""
     # Forms are compiled before anything is on the clock
     rows = strong([0.2])
-    title = "Strong scaling, common Hertz problem, default solver"
+    title = "Strong scaling, common Hertz problem"
     rows = strong([float(h) for h in argv] or SIZES)
     tables.show(title, STRONG, rows, runner.OUTPUT / "scaling_strong.csv")
     more = weak(RANKS)

@@ -1,6 +1,6 @@
 # Copyright (C) 2026 contactx authors
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What is run on several ranks: the common Hertz problem, and a slab as long as there are ranks."""
+"""What is run on several ranks: a slab as long as there are ranks."""
 
 from __future__ import annotations
 
@@ -15,14 +15,12 @@ from typing import Any
 from mpi4py import MPI
 from petsc4py import PETSc
 
-import hertz_case
 import numpy as np
 
 import contactx as cx
 from dolfinx.mesh import CellType
 
 import meshes
-import scenes
 from meshes import Tag
 from ranks.partitions import partitioned
 from story import displacement, elasticity, fix
@@ -34,29 +32,6 @@ LOWER = {2: (52, 6), 3: (10, 7, 3)}
 SIZE = {2: (4.0, 0.6), 3: (1.6, 1.2, 0.6)}
 DOWN, ASIDE, REACH = 0.02, 0.25, 0.2
 _TAG = 7080
-
-
-def strong(path: str, sliding: str) -> dict[str, Any]:
-    """Solve the common Hertz problem on all ranks, on the clock from the read mesh on."""
-    data = hertz_case.read_mesh(path)
-    comm = data.mesh.comm
-    comm.Barrier()
-    start = time.perf_counter()
-    scene = scenes.HertzSphere(data, sliding)
-    made = time.perf_counter()
-    scene.problem.solve()
-    comm.Barrier()
-    end = time.perf_counter()
-    report = scene.problem.report
-    return {
-        "dofs": scene.problem.u.function_space.dofmap.index_map.size_global * 3,
-        "iterations": report.iterations,
-        "krylov": report.krylov,
-        "wall": end - start,
-        "setup": made - start,
-        **{f"{name} s": seconds for name, seconds in report.times.items()},
-        "force": 4 * float(scene.contact.force[2]),
-    }
 
 
 class LongSlab:

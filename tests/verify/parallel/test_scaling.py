@@ -21,12 +21,10 @@ def folder(tmp_path, monkeypatch):
 
 def test_strong_scaling(monkeypatch):
     monkeypatch.setattr(bench_scaling, "RUNS", 1)
-    rows = bench_scaling.strong([0.07], ["finite"])
-    assert [row["ranks"] for row in rows] == [1, 2]
-    one, two = rows
-    assert one["iterations"] == two["iterations"]
-    assert two["force"] == pytest.approx(one["force"], rel=1e-9)
-    assert one["ratio"] == 1 and two["ratio"] > 0
+    linear, contact = bench_scaling.strong([0.07], METHODS[:1], [0.3])
+    assert linear["efficiency"] == 1
+    assert contact["iterations"] == contact["iterations of two"]
+    assert contact["ratio"] == pytest.approx(contact["efficiency"] * linear["ratio"])
 
 
 @pytest.mark.parametrize("method", METHODS)
