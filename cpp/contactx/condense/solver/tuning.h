@@ -19,11 +19,11 @@ struct Tuning
   /// coarse model takes it
   int max_iterations = 120;
   /// Difference between what contact is now and what it was when a block was
-  /// factorised or multigrid's coarser levels were brought up to it, up to which
-  /// these are kept: of a block what contact adds, relative in the Frobenius
-  /// norm and times ln(residual / target), as iterations with old factors grow
-  /// with both; of the levels the part of the constrained displacements that
-  /// are others
+  /// factorised or multigrid's coarser levels were brought up to it, up to
+  /// which these are kept: of a block what contact adds, relative in the
+  /// Frobenius norm and times ln(residual / target), as iterations with old
+  /// factors grow with both; of the levels the part of the constrained
+  /// displacements that are others
   double max_change = 0.15;
   /// Exponent of the stiffness for the shortest waves in the geometric mean of
   /// a spring's: on slabs of a dam's face 0 takes a fifth to two fifths more
