@@ -14,7 +14,6 @@ struct Side
   geometry::Facets facets;        ///< oriented outward
   std::vector<std::int32_t> cell; ///< of each facet
 
-  /// @brief Both together.
   Side operator+(const Side& other) const
   {
     Side both = *this;

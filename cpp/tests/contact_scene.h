@@ -63,7 +63,6 @@ struct WholeMesh
     return ranks ? static_cast<int>(node * 7 % 11) % ranks->size() : 0;
   }
 
-  /// @brief Whether a node is this rank's.
   bool owns(std::int32_t node) const { return place[node] < num_owned; }
 
   /// @brief Values of the nodes in the order of this rank.
@@ -144,7 +143,6 @@ struct ContactScene
   {
   }
 
-  /// @brief Take any two surfaces.
   explicit ContactScene(TwoSheets surfaces, mesh::Ranks* ranks = nullptr)
       : sheets(std::move(surfaces)), mesh(sheets.num_nodes(), ranks),
         u(std::make_shared<std::vector<double>>(sheets.x.size(), 0.0)),

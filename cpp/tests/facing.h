@@ -73,7 +73,6 @@ struct Facing
       node += first;
   }
 
-  /// @brief Move all nodes: p becomes map(p).
   template <class Map>
   void move(Map&& map)
   {
@@ -91,7 +90,6 @@ struct Facing
     return search().find(x, reach, margin);
   }
 
-  /// @brief Each slave facet with each master facet.
   geometry::FacetPairs all_pairs() const
   {
     geometry::FacetPairs pairs;

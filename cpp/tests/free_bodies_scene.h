@@ -245,7 +245,6 @@ struct FreeScene : WholeMesh
         nodes->original(), nodes);
   }
 
-  /// @brief Add a contact.
   std::shared_ptr<NodeContact> add_contact(double friction = 0)
   {
     auto contact = std::make_shared<NodeContact>();

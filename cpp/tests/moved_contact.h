@@ -18,7 +18,6 @@ struct MovedContact
   std::shared_ptr<mesh::Halo> halo;
   std::shared_ptr<contact::Contact> contact;
 
-  /// @brief A slave sheet over a master sheet.
   MovedContact(const TwoSheets& sheets, double reach, contact::Sliding sliding,
                std::shared_ptr<law::Law> law
                = std::make_shared<law::Frictionless>())
@@ -30,7 +29,6 @@ struct MovedContact
          std::move(law), sliding);
   }
 
-  /// @brief A slave sheet and an obstacle.
   MovedContact(const Scene& slave, std::shared_ptr<geometry::Obstacle> obstacle,
                contact::Sliding sliding = contact::Sliding::finite)
       : MovedContact(slave.x, slave.gdim)

@@ -50,7 +50,6 @@ struct FacingNodes
     face(o);
   }
 
-  /// @brief Nodes at given places.
   FacingNodes(geometry::Obstacle& o, int dimension, std::vector<double> points)
       : gdim(dimension), n(static_cast<int>(points.size()) / dimension),
         x(std::move(points))
@@ -148,7 +147,6 @@ inline double difference(const std::vector<double>& a,
   return largest;
 }
 
-/// @brief Largest of some numbers.
 inline double largest(const std::vector<double>& a)
 {
   return difference(a, std::vector<double>(a.size(), 0.0));

@@ -37,7 +37,6 @@ inline geometry::LevelValues bump(std::span<const double> x, int gdim,
   return at;
 }
 
-/// @brief Kinds of obstacles that tests go through.
 enum class Kind
 {
   plane,
@@ -49,7 +48,6 @@ enum class Kind
   level_set_by_gradients
 };
 
-/// @brief The kinds that there are in a dimension.
 inline std::vector<Kind> kinds(int gdim)
 {
   using enum Kind;

@@ -27,7 +27,6 @@ inline double area(const Polygon<2>& p)
   return sum;
 }
 
-/// @brief Length of an interval.
 inline double area(const Polygon<1>& p)
 {
   return p.empty() ? 0 : std::abs(p[1][0] - p[0][0]);
@@ -95,7 +94,6 @@ inline Polygon<2> shared(const Polygon<2>& a, const Polygon<2>& b)
   return hull(points);
 }
 
-/// @brief What two intervals share.
 inline Polygon<1> shared(Polygon<1> a, Polygon<1> b)
 {
   std::ranges::sort(a);

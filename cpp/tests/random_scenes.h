@@ -23,7 +23,6 @@ enum class Kind
   num_kinds
 };
 
-/// @brief All kinds of surfaces.
 inline std::vector<Kind> all_kinds()
 {
   std::vector<Kind> kinds;
@@ -32,7 +31,6 @@ inline std::vector<Kind> all_kinds()
   return kinds;
 }
 
-/// @brief Add a random facet around a point.
 inline void add_random_facet(Scene& scene, Generator& random, int num_nodes,
                              double size, double thickness)
 {
@@ -48,7 +46,6 @@ inline void add_random_facet(Scene& scene, Generator& random, int num_nodes,
   scene.facet(n);
 }
 
-/// @brief A random surface.
 inline Scene random_scene(Kind kind, Generator& random)
 {
   if (kind == Kind::grid)

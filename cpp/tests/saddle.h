@@ -14,7 +14,6 @@ namespace contactx::tests
 {
 using Column = std::vector<double>;
 
-/// @brief Entries as a matrix.
 inline Eigen::MatrixXd dense(const Triplets& entries, std::size_t rows,
                              std::size_t columns)
 {
@@ -38,7 +37,6 @@ inline Column operator-(Column a, const Column& b)
   return a;
 }
 
-/// @brief Largest difference of two columns.
 inline double distance(const Column& a, const Column& b)
 {
   double most = 0;
@@ -159,7 +157,6 @@ public:
                                   diagonal(), holds);
   }
 
-  /// @brief Diagonal of the bulk's matrix.
   Column diagonal() const
   {
     const Eigen::VectorXd values = bulk.diagonal();
@@ -223,7 +220,6 @@ public:
     Eigen::MatrixXd of_right, of_left, left, right, law, K, A;
   };
 
-  /// @brief A random column.
   Column column(std::size_t size)
   {
     Column x(size);
@@ -296,7 +292,6 @@ private:
       }
   }
 
-  /// The law's derivative by the multiplier
   Eigen::MatrixXd law(const Contact& c, std::size_t s, const Column& normal,
                       double area)
   {

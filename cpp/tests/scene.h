@@ -21,7 +21,6 @@ struct Scene
 
   explicit Scene(int dimension) : gdim(dimension) {}
 
-  /// @brief Take nodes and facets.
   Scene(int dimension, const std::vector<Vector<3>>& points,
         const std::vector<std::vector<std::int32_t>>& facets)
       : gdim(dimension)
@@ -32,7 +31,6 @@ struct Scene
       facet(f);
   }
 
-  /// @brief Number of all nodes.
   std::int32_t num_nodes() const
   {
     return static_cast<std::int32_t>(x.size()) / gdim;
@@ -65,7 +63,6 @@ struct Scene
 
   Vector<3> point(std::int32_t i) const { return vector_at(x, i, gdim); }
 
-  /// @brief Move all nodes: p becomes map(p).
   template <class Map>
   void move(Map&& map)
   {
@@ -112,7 +109,6 @@ inline Scene regular_polygon(int n, double radius)
   return scene;
 }
 
-/// @brief What a grid is made of.
 enum class Cells
 {
   triangles,
@@ -139,7 +135,6 @@ Scene grid(int n, int m, Cells cells, Position position)
   return scene;
 }
 
-/// @brief Grid of n x n cells.
 template <class Position>
 Scene grid(int n, Cells cells, Position position)
 {

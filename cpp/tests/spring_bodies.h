@@ -249,7 +249,6 @@ struct SpringBodies
     std::ranges::fill(bulk->ground, 3.0);
   }
 
-  /// @brief Take any two surfaces, and the cells of the bodies.
   SpringBodies(TwoSheets surfaces, const std::vector<std::int32_t>& cells,
                int width)
       : scene(std::move(surfaces)),
@@ -282,7 +281,6 @@ struct SpringBodies
     bulk->values[dof] = value;
   }
 
-  /// @brief Add a contact of the sheets.
   template <class M>
   void add(std::shared_ptr<law::Law> law
            = std::make_shared<law::Frictionless>(),
@@ -291,7 +289,6 @@ struct SpringBodies
     contacts.push_back(scene.contact<M>(std::move(law), sliding));
   }
 
-  /// @brief A law without friction, or with it.
   std::shared_ptr<law::Law> law(double friction) const
   {
     if (friction == 0)
@@ -314,7 +311,6 @@ struct SpringBodies
     }
   }
 
-  /// @brief The system of these bodies and contacts.
   std::shared_ptr<solve::System> system() const
   {
     return std::make_shared<solve::System>(scene.halo, bulk, contacts);

@@ -60,7 +60,6 @@ struct Stepped : SpringBodies
     return *made;
   }
 
-  /// One linear solve.
   void advance()
   {
     solve::System& system = *problem().system();
@@ -114,7 +113,6 @@ struct Stepped : SpringBodies
   std::vector<std::shared_ptr<results::Results>> results_of;
 };
 
-/// Dense factors of the bodies' Jacobian.
 class DenseSolver final : public contactx::problem::LinearSolver
 {
 public:

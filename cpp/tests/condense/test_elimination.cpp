@@ -26,7 +26,6 @@ void compare(Saddle& saddle, bool holds = false)
   EXPECT_GT(distance(other, exact), 1e-3 * largest(exact));
 }
 
-/// Displacements of some nodes along some axes
 std::vector<std::int32_t> along(int gdim, std::vector<std::int32_t> nodes,
                                 std::vector<int> axes)
 {

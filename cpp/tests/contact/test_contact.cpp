@@ -9,7 +9,6 @@ using namespace contactx::tests;
 
 namespace
 {
-/// What is asked of contacts of either method.
 template <class>
 using Contacts = testing::Test;
 

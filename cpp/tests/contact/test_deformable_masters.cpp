@@ -13,7 +13,6 @@ using namespace contactx::tests;
 
 namespace
 {
-/// What is asked of pairs of either method.
 template <class>
 using DeformableMasters = testing::Test;
 

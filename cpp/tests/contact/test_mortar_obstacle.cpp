@@ -38,7 +38,6 @@ std::vector<Scene> surfaces(double height)
           surface(3, Cells::mixed, height)};
 }
 
-/// All of a surface before an obstacle.
 struct Front
 {
   Scene scene;
@@ -92,7 +91,6 @@ std::shared_ptr<geometry::Obstacle> ceiling(int gdim, double z)
   return std::make_shared<geometry::Plane>(point, down);
 }
 
-/// A ball above.
 std::shared_ptr<geometry::Obstacle> ball(int gdim)
 {
   std::vector<double> centre(gdim, 0.45);

@@ -31,7 +31,6 @@ Given given(ObstacleMaster& master, const FacingNodes& scene,
   return Given(master.update(x, frozen, offset).value(), scene.gdim);
 }
 
-/// Random movement of the slave nodes.
 std::vector<double> strayed(const FacingNodes& scene, double by,
                             unsigned seed = 3)
 {

@@ -27,7 +27,6 @@ Overlap<2> overlap(const Polygon<2>& p)
   return o;
 }
 
-/// A rectangle.
 Overlap<2> box(double left, double bottom, double right, double top)
 {
   return overlap({{left, bottom}, {right, bottom}, {right, top}, {left, top}});

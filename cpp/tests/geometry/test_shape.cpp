@@ -190,7 +190,6 @@ TYPED_TEST_SUITE(Ridge, FacetTypes);
 template <class F>
 constexpr int all_features = 1 + F::num_edges + F::nodes;
 
-/// A point on a feature.
 template <class F>
 Local<F> on_feature(int feature, double s)
 {

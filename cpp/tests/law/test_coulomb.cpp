@@ -22,7 +22,6 @@ struct CoulombTerms
   Matrix<D> by_traction, by_slip, by_normal;
 };
 
-/// @brief One slave node with friction.
 template <int D>
 struct CoulombNode
 {
@@ -111,7 +110,6 @@ CoulombNode<D> upright(double p, double t, double gap, double slip,
   return node;
 }
 
-/// @brief Largest component of a vector.
 template <std::size_t D>
 double largest(const std::array<double, D>& v)
 {

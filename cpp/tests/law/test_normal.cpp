@@ -10,7 +10,6 @@ using namespace contactx::law;
 
 namespace
 {
-/// Status of one node.
 std::int8_t status_of(double pressure, double gap, double c,
                       std::int8_t before = open)
 {

@@ -28,7 +28,6 @@ Vector<3> place_of(CellType cell, const std::vector<int>& vertices)
   return (1.0 / static_cast<double>(vertices.size())) * sum;
 }
 
-/// Places of nodes of a cell.
 std::vector<Vector<3>> places(CellType cell, int degree,
                               std::span<const int> nodes)
 {

@@ -13,7 +13,6 @@ namespace
 {
 constexpr double duration = 0.25, height = 0.05, aside = 0.3, down = -2;
 
-/// Masses of the dofs.
 struct Masses final : Inertia
 {
   std::span<const double> diagonal() const override { return mass; }

@@ -21,7 +21,6 @@ using ResultsOf = testing::Test;
 using Methods = testing::Types<NodeToSurface, SurfaceToSurface>;
 TYPED_TEST_SUITE(ResultsOf, Methods);
 
-/// Close all slave nodes with a pressure.
 void press(Contact& contact, double pressure)
 {
   contact.search();

@@ -86,7 +86,6 @@ struct Points
   std::vector<double> points, normals;
 };
 
-/// Those of this rank
 Points of_rank(const Points& all, const mesh::Ranks& ranks, int gdim)
 {
   Points mine;

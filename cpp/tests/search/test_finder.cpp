@@ -15,7 +15,6 @@ namespace
 {
 using Indices = std::vector<std::int32_t>;
 
-/// Finder of the scene's master.
 Finder finder_of(const Pairing& pairing, const std::vector<double>& x)
 {
   const auto facets = pairing.master().facets();

@@ -473,7 +473,6 @@ TEST(Convergence, TheLargestCellMayBeOnAnotherRankThanWhatMoves)
   on_ranks(2, [&](mesh::Ranks& ranks) { EXPECT_TRUE(run(&ranks)); });
 }
 
-/// A row with two other fields.
 struct RowWithFields : Row
 {
   std::shared_ptr<LooseFields> others

@@ -14,7 +14,6 @@ namespace
 {
 constexpr double dt = 0.25;
 
-/// What is asked of contacts of either method.
 template <class>
 using Impacts = testing::Test;
 
