@@ -97,54 +97,60 @@ void expect_derivative(ObstacleMaster& master, const FacingNodes& scene,
   }
 }
 
-TEST_2D_3D(ObstacleMaster, TheDerivativeIsThatOfTheSlip, gdim)
+/// Test obstacles of each kind, as masters of nodes that face them.
+template <class Test>
+void on_each_kind(int gdim, Test&& test)
 {
   for (Kind kind : kinds(gdim))
-    for (bool frozen : {false, true})
-    {
-      SCOPED_TRACE(testing::Message() << gdim << " " << int(kind));
-      const auto o = make_obstacle(kind, gdim);
-      const FacingNodes scene(*o, gdim);
-      expect_derivative(*make(scene, o), scene, frozen);
-    }
+  {
+    SCOPED_TRACE(testing::Message() << gdim << " " << int(kind));
+    const auto o = make_obstacle(kind, gdim);
+    const FacingNodes scene(*o, gdim);
+    test(*o, *make(scene, o), scene);
+  }
+}
+
+TEST_2D_3D(ObstacleMaster, TheDerivativeIsThatOfTheSlip, gdim)
+{
+  for (bool frozen : {false, true})
+    on_each_kind(gdim, [&](const auto&, auto& master, const FacingNodes& scene)
+                 { expect_derivative(master, scene, frozen); });
 }
 
 TEST_2D_3D(ObstacleMaster, SlipIsTheTangentialPartOfTheWay, gdim)
 {
-  for (Kind kind : kinds(gdim))
-  {
-    const auto o = make_obstacle(kind, gdim);
-    const FacingNodes scene(*o, gdim);
-    const auto master = make(scene, o);
-    const auto x = strayed(scene, 0.3);
-    const Given at = given(*master, scene, x);
-    EXPECT_LE(difference(at.slip, across(scene, scene.x, x, at.normal)), 1e-14);
-    EXPECT_LE(largest(given(*master, scene, scene.x).slip), 1e-15);
-  }
+  on_each_kind(gdim,
+               [&](const auto&, auto& master, const FacingNodes& scene)
+               {
+                 const auto x = strayed(scene, 0.3);
+                 const Given at = given(master, scene, x);
+                 EXPECT_LE(
+                     difference(at.slip, across(scene, scene.x, x, at.normal)),
+                     1e-14);
+                 EXPECT_LE(largest(given(master, scene, scene.x).slip), 1e-15);
+               });
 }
 
 TEST_2D_3D(ObstacleMaster, FrozenTheGapIsLinear, gdim)
 {
-  for (Kind kind : kinds(gdim))
-  {
-    const auto o = make_obstacle(kind, gdim);
-    const FacingNodes scene(*o, gdim);
-    const auto master = make(scene, o);
-    const auto x = strayed(scene, 0.3);
-    const Given at = given(*master, scene, x, true);
-    const auto seen
-        = o->evaluate(std::span(scene.x).first(scene.n * gdim), gdim);
-    for (int i = 0; i < scene.n; ++i)
-    {
-      double gap = seen.gap[i];
-      for (int k = gdim * i; k < gdim * (i + 1); ++k)
-        gap += seen.gradient[k] * (x[k] - scene.x[k]);
-      EXPECT_NEAR(at.gap[i], gap, 1e-13 * (1 + std::abs(gap)));
-    }
-    EXPECT_EQ(at.normal, seen.normal);
-    // Not frozen, it is the obstacle's
-    EXPECT_EQ(given(*master, scene, x).gap, master->inside(x));
-  }
+  on_each_kind(gdim,
+               [&](auto& o, auto& master, const FacingNodes& scene)
+               {
+                 const auto x = strayed(scene, 0.3);
+                 const Given at = given(master, scene, x, true);
+                 const auto seen = o.evaluate(
+                     std::span(scene.x).first(scene.n * gdim), gdim);
+                 for (int i = 0; i < scene.n; ++i)
+                 {
+                   double gap = seen.gap[i];
+                   for (int k = gdim * i; k < gdim * (i + 1); ++k)
+                     gap += seen.gradient[k] * (x[k] - scene.x[k]);
+                   EXPECT_NEAR(at.gap[i], gap, 1e-13 * (1 + std::abs(gap)));
+                 }
+                 EXPECT_EQ(at.normal, seen.normal);
+                 // Not frozen, it is the obstacle's
+                 EXPECT_EQ(given(master, scene, x).gap, master.inside(x));
+               });
 }
 
 TEST(ObstacleMaster, TheNextStepStartsWhereTheLastOneEnded)

@@ -28,7 +28,7 @@ public:
   Galerkin(const Numbering& numbering, MatrixPtr slave_rows,
            std::vector<MatrixPtr> prolongations);
 
-  /// @brief Whether the constrained displacements are all but those of the last
+  /// @brief Whether few constrained displacements are others than in the last
   /// update, and there are no springs now or then; the same on all ranks.
   /// @param[in] update What contact changes now.
   /// @param[in] max_change Number of displacements that are constrained only
