@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
@@ -159,7 +160,14 @@ class Blocks:
             modulus=self.modulus * min(self.young),
             steps=self.steps,
             into=[INTO[self.method] if self.sliding == "finite" else None],
+            swapped=lambda: self.swap().case(),
         )
+
+    def swap(self) -> Blocks:
+        """The same with slave and master swapped."""
+        other = copy(self)
+        other.swapped = not self.swapped
+        return other
 
     def _mesh(self) -> Any:
         dim = dimension(self.cell)

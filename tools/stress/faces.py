@@ -249,13 +249,19 @@ def corner_normals(corners: Array) -> Array:
     return np.stack(rows, axis=1)
 
 
+def middles(facets: Array) -> Array:
+    """Local coordinates of the middle of each facet, shape (m, dim - 1)."""
+    m, k = facets.shape[:2]
+    return np.full((m, 1 if k == 2 else 2), 1 / 3 if k == 3 else 0.5)
+
+
 def edges(facets: Numbers, x: Array) -> list[int]:
-    """Nodes on edges of a surface, by the normals at the corners of its facets."""
-    normal = corner_normals(x[facets])
+    """Nodes on edges of a surface, by the normals in the middle of its facets."""
+    normal = normals(x[facets], middles(facets))
     around: dict[int, list[Array]] = {}
     for facet, own in zip(facets.tolist(), normal, strict=True):
-        for node, row in zip(facet, own, strict=True):
-            around.setdefault(node, []).append(row)
+        for node in facet:
+            around.setdefault(node, []).append(own)
     return [n for n, rows in around.items() if (np.array(rows) @ np.array(rows).T).min() < _EDGE]
 
 

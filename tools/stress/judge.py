@@ -96,6 +96,9 @@ class _State:
         forces: What acts on each node beside the bodies' stresses and loads, shape (n, dim).
         small: What of it is rounding, shape (n, dim).
         length: What of a length is rounding.
+        before: The same at the start of the step, where nodes are apart by more.
+        force: Largest force, now or before.
+        stiffness: Of each node alone, shape (n,).
         size: Size of the smallest body.
     """
 
@@ -104,6 +107,9 @@ class _State:
     forces: Array
     small: Array
     length: float
+    before: float
+    force: float
+    stiffness: Array
     size: float
 
 
@@ -181,9 +187,13 @@ class Judge:
         # Forces of a stiff body that moves, and those of thin cells, are sums of large parts. A gap
         # is a difference of positions, and contact gives it back as a force.
         K = abs(fem.assemble_matrix(self._stiffness).to_scipy())
+        stiffness = K.diagonal().reshape(x.shape).min(axis=1)
         small = _ALLOWED * scale + K @ (rounding * moved + 16 * _EPS * farthest)
-        length = _ALLOWED * float(moved.max()) + rounding * size
-        return _State(x, self._start, forces, small.reshape(x.shape), length, size)
+        then = np.abs(self._start - self._X)
+        length, before = (_ALLOWED * float(m.max()) + rounding * size for m in (moved, then))
+        return _State(
+            x, self._start, forces, small.reshape(x.shape), length, before, scale, stiffness, size
+        )
 
 
 class _Look:
@@ -236,6 +246,8 @@ class _Look:
         self._loaded = (np.abs(self._force) > state.small).any(axis=1)
         # Whether all facets of a node count for its area
         self._has_area = np.zeros(len(state.x), dtype=bool)
+        # Slip that is undone by forces that are rounding, as the softer body yields
+        self._yields = _ANGLE * state.force / float(state.stiffness[self.nodes].min())
         # Largest angle of the normals that a node has by surface-to-surface
         self._tilt = np.zeros(len(state.x))
         near = self.measure(state.x, state.start)
@@ -332,7 +344,7 @@ class _Look:
         if self._loaded[node] and len(near.gap) > 0:
             self._has_area[node] = self._faces_all(node, near)
             none = np.zeros(len(near.gap))
-            known = (near.before <= state.length).all()
+            known = (near.before <= state.before).all()
             yield from self._of_force(
                 node,
                 small,
@@ -383,7 +395,7 @@ class _Look:
         slip = None
         if self._contact.friction > 0 and np.isfinite(near.before).all():
             before = float(weight @ near.before) - self._rough(weight, near, near.before)
-            slip = (weight @ near.slip)[None] if before <= state.length else None
+            slip = (weight @ near.slip)[None] if before <= state.before else None
         loose = np.zeros(1)
         if slip is not None:
             loose[0] = np.linalg.norm([self._rough(weight, near, s) for s in near.slip.T])
@@ -405,10 +417,17 @@ class _Look:
         return bool(np.linalg.norm(free, axis=1).min() > _MOVABLE)
 
     def _is_under(self, node: int, near: Near, state: _State) -> bool:
-        """Whether a node is measured where it would be inside a body."""
-        if not self._bodies or not self._contact.is_finite:
+        """Whether a node is measured where it would be inside a body.
+
+        Beside all facets it may be paired, but need not.
+        """
+        if not self._bodies:
             return True
-        if near.gap.max() >= -state.length or near.beyond.min() > 0:
+        if near.beyond.min() > 0:
+            return False
+        if not self._contact.is_finite:
+            return True
+        if near.gap.max() >= -state.length:
             return False
         return bool(inside.depth(state.x[[node]], state.x, self._bodies[0])[0] > state.length)
 
@@ -456,7 +475,7 @@ class _Look:
         scale = np.where(moved > 0, moved, 1.0)
         against = np.linalg.norm(along + (bound / scale)[:, None] * slip, axis=1)
         against /= small + loose / scale * size
-        still = moved / (state.length + loose) / _CLEAR
+        still = moved / (state.length + self._yields + loose) / _CLEAR
         sticks = beyond < -_CLEAR * small
         error = np.where(still > 1, against, np.where(sticks, still * _CLEAR, 0.0))
         yield "slip is against friction, or none", float(error.min())
@@ -481,6 +500,7 @@ class _Look:
                 weight = weight / max(covered, 1e-300)
             corners = self._master[rows.facet]
             unknown[corners] |= self._fixed[node]
+            np.add.at(allowed, corners, self._small[node])
             if not self._loaded[node]:
                 continue
             size = float(np.linalg.norm(forces[node]))
@@ -488,7 +508,6 @@ class _Look:
             np.subtract.at(
                 expected, corners, (weight[:, None] * rows.weights)[..., None] * forces[node]
             )
-            np.add.at(allowed, corners, self._small[node])
             if contact.is_mean:
                 middle = feet.mean(axis=0) if len(feet) else X[node]
                 far = reach + np.linalg.norm(feet - middle, axis=1).max(initial=0.0)

@@ -241,9 +241,7 @@ class Measure:
         else:
             every = np.indices((len(points), len(corners)), dtype=np.int64)
             point, facet = every.reshape(2, -1)
-        middle = np.full(
-            (len(corners), corners.shape[2] - 1), 1 / 3 if corners.shape[1] == 3 else 0.5
-        )
+        middle = faces.middles(corners)
         facing = (faces.normals(corners, middle)[facet] * self.own[point]).sum(axis=1) < -_EPS
         point, facet = point[facing], facet[facing]
         k = corners.shape[1]

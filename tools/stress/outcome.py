@@ -18,7 +18,7 @@ import numpy as np
 import contactx as cx
 
 from stress.judge import Judge
-from stress.scene import Case, Scene
+from stress.scene import SWAP, Case, Scene
 
 
 class Kind(StrEnum):
@@ -116,6 +116,8 @@ def _refused(scene: Scene, text: str) -> Kind:
         if re.search(words, text) and helps():
             return Kind.RIGHTLY
     case = scene.make()
+    if case.swapped and re.search(SWAP, text) and rightly(case.swapped()):
+        return Kind.RIGHTLY
     if not case.cut and "smaller load steps" in text and rightly(replace(case, cut=True)):
         return Kind.RIGHTLY
     if scene.solvable is None or scene.solvable():

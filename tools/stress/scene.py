@@ -19,6 +19,8 @@ from stress import judge
 from stress.check import Check
 from stress.tools import Tool
 
+# What a message must name for its advice to swap both sides to count
+SWAP = r"(?i)(swap|exchange)|the other way round|(take|make) [^.;:]* (as )?the slave"
 METHODS = ("node-to-surface", "surface-to-surface")
 SLIDINGS = ("finite", "small")
 SHORT = {"node-to-surface": "n2s", "surface-to-surface": "s2s"}
@@ -44,6 +46,8 @@ class Case:
         notes: What is worth knowing, though it is not wrong, at the end.
         cut: Whether steps that fail are cut.
         tools: What each contact has for a master, None where that is a surface.
+        swapped: The same case with slave and master swapped, if there is one: a refusal that asks
+            for that is right if this is solved.
     """
 
     problem: cx.ContactProblem
@@ -60,6 +64,7 @@ class Case:
     notes: Callable[[], Sequence[Check]] = tuple
     cut: bool = True
     tools: Sequence[Tool | None] = ()
+    swapped: Callable[[], Case] | None = None
 
     def given(self) -> judge.Problem:
         """What the judge is given: nothing of contactx but displacement and multipliers."""

@@ -12,11 +12,11 @@ import numpy as np
 
 import contactx as cx
 
-from stress.families.grid import SWAP, label, variants
+from stress.families.grid import label, variants
 from stress.grids import disc, even, grid
 from stress.outcome import rightly
 from stress.parts import Parts
-from stress.scene import METHODS, Case, Scene
+from stress.scene import METHODS, SWAP, Case, Scene
 from stress.sides import apart, folded, pressed, pushes, stays, watch
 from stress.tools import Ball, Punch
 

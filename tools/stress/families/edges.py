@@ -15,16 +15,7 @@ from scenes import dimension
 from scenes.tip_on_arm import SIDE, TipOnArm
 from stress.blocks import INTO, Blocks
 from stress.check import Check
-from stress.families.grid import (
-    ALL_CELLS,
-    CELLS,
-    SWAP,
-    divisions,
-    label,
-    scenes,
-    variants,
-)
-from stress.outcome import rightly
+from stress.families.grid import ALL_CELLS, CELLS, divisions, label, scenes, variants
 from stress.scene import METHODS, Case, Scene
 
 
@@ -72,6 +63,7 @@ def _pressed_first(blocks: Blocks) -> Case:
         top.x.array.reshape(-1, dim)[:] = motion
 
     case.update = update
+    case.swapped = lambda: _pressed_first(blocks.swap())
     return case
 
 
@@ -131,13 +123,11 @@ def with_an_edge() -> Iterator[Scene]:
     )
     for own in rows:
         steps = own.pop("steps")
-        swapped = partial(_edge, steps, **{**own, "slave": "block"})
         yield Scene(
             "with an edge along an arm, steps",
             str(steps),
             label(own),
             partial(_edge, steps, **own),
-            advice={SWAP: lambda swapped=swapped: rightly(swapped())},
         )
 
 
@@ -156,4 +146,5 @@ def _edge(steps: int, method: str, slave: str, depth: float) -> Case:
         size=SIDE,
         steps=steps,
         into=[INTO[method]],
+        swapped=partial(_edge, steps, method, "block", depth) if slave == "arm" else None,
     )

@@ -16,8 +16,6 @@ from stress.blocks import Blocks
 from stress.scene import METHODS, SHORT, SLIDINGS, Case, Scene
 
 CELLS = (CellType.quadrilateral, CellType.tetrahedron)
-# What a message must name for its advice to swap both sides to count
-SWAP = r"(?i)(swap|exchange)|the other way round|(take|make) [^.;:]* (as )?the slave"
 ALL_CELLS = (*CELLS, CellType.triangle, CellType.hexahedron)
 
 
