@@ -17,8 +17,8 @@ from tether import environment, tethered
 # corner between its nodes; a block that comes to lie on another one; a load that is taken off; a
 # disc that iterates distort, and that was pressed along the normals of these from afar. Right ones
 # that a judge may take for wrong: a node beside the master by 5.7 % of its facet, a stiff slave
-# whose forces are rounding, rough quadrilaterals that are no edge, a node that was apart by 1e-9, and
-# slip that forces of 1e-6 undo
+# whose forces are rounding, rough quadrilaterals that are no edge, a node that was apart by 1e-9,
+# and slip that forces of 1e-6 undo
 _HARD = (
     "past one another, way in heights: 0.1, tip:tip, 0.1, whole, n2s, 1, False",
     "past one another, way in heights: 0.6, tip:tip, 0.1, whole, n2s, 3, True",
