@@ -27,6 +27,8 @@ type Numbers = npt.NDArray[np.int64]
 _ITERATIONS = 25
 # The same for lines that meet them, which are nearly normal to them
 _CASTS = 6
+# Points that are compared with all facets at once, and what lies on the edge of a ball
+_ROWS, _CLOSE = 256, 1e-6
 # No mesh of a smooth surface has facets of a node that meet at a larger angle
 _EDGE = np.cos(np.radians(50))
 
@@ -296,3 +298,25 @@ def pairs(points: Array, corners: Array, reach: Array, margin: float) -> tuple[N
     found = cKDTree(points).query_ball_point(middle, (1 + 2 * margin) * far + reach)
     facet = np.repeat(np.arange(len(corners)), [len(row) for row in found])
     return np.array([p for row in found for p in row], dtype=np.int64), facet
+
+
+def met(points: Array, ways: Array, corners: Array) -> tuple[Numbers, Numbers]:
+    """Points and facets that lines through these may meet, however far off.
+
+    Args:
+        points: Points, shape (n, dim).
+        ways: Unit directions of the lines, shape (n, dim).
+        corners: Facets, shape (m, k, dim).
+    """
+    middle = corners.mean(axis=1)
+    far = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)
+    found = []
+    for first in range(0, len(points), _ROWS):
+        rows = slice(first, first + _ROWS)
+        off = middle - points[rows, None]
+        ahead = (off * ways[rows, None]).sum(axis=2)
+        beside = (off**2).sum(axis=2) - ahead**2
+        point, facet = np.nonzero(beside <= (1 + _CLOSE) * far**2)
+        found.append((point + first, facet))
+    point, facet = (np.concatenate(rows) for rows in zip(*found, strict=True))
+    return point, facet

@@ -238,6 +238,8 @@ class Measure:
             far = _FRONT * longest if mean else _HIDDEN * size
             reach = far + abs(self._contact.offset())
             point, facet = faces.pairs(points, corners, reach, margin)
+        elif mean:
+            point, facet = faces.met(points, self.own, corners)
         else:
             every = np.indices((len(points), len(corners)), dtype=np.int64)
             point, facet = every.reshape(2, -1)

@@ -117,6 +117,15 @@ void SurfaceToSurface::pair(std::span<const double> x)
     update_facets(now, margin);
     update();
     _found = find(now, margin);
+    if (_options.is_small)
+    {
+      // Facets that are in front along the directions that gaps are measured in
+      const geometry::Integrals all = integrals(now, {});
+      _kept = _sides.between(now, *_found, all.weight, all.normal);
+      update_facets(now, margin, _kept);
+      update();
+      _found = find(now, margin, _kept);
+    }
     _searched.clear();
     for (const std::int32_t node : _nodes)
       _searched.insert(_searched.end(), now.begin() + std::size_t(node) * g,
@@ -131,10 +140,12 @@ void SurfaceToSurface::pair(std::span<const double> x)
         = _area[i] > (_paired[i] ? cover_to_stay : cover_to_pair) * _whole[i];
 }
 
-void SurfaceToSurface::update_facets(std::span<const double> x, double margin)
+void SurfaceToSurface::update_facets(std::span<const double> x, double margin,
+                                     std::span<const double> along)
 {
   const int known = _surface->version();
-  _surface->add_facets_within(x, _slaves->facets(), _options.reach, margin);
+  _surface->add_facets_within(x, _slaves->facets(), _options.reach, margin,
+                              along);
   if (_surface->version() != known)
     set_master_facets();
 }
@@ -170,10 +181,11 @@ bool SurfaceToSurface::has_moved(std::span<const double> x) const
 }
 
 geometry::FacetPairs SurfaceToSurface::find(std::span<const double> x,
-                                            double margin)
+                                            double margin,
+                                            std::span<const double> along)
 {
-  return facing(x,
-                without_outside(x, _search->find(x, _options.reach, margin)));
+  return facing(x, without_outside(x, _search->find(x, _options.reach, margin,
+                                                    false, along)));
 }
 
 /// Facet pairs without those whose master facets do not face the slave facet,
@@ -263,9 +275,12 @@ SurfaceToSurface::integrals(std::span<const double> x,
 }
 
 /// At an edge of the slave no facet has the normal of what touches it: its
-/// facets take the master's, until the next search.
+/// facets take the master's, until the next search. In small sliding all have
+/// kept directions of their own.
 void SurfaceToSurface::take_normals(std::span<const double> x)
 {
+  if (_options.is_small)
+    return;
   _kept.clear();
   std::ranges::replace(_keeps, kernel::Keeps::normal, kernel::Keeps::nothing);
   if (std::ranges::none_of(_found->slave,
@@ -323,8 +338,6 @@ void SurfaceToSurface::find_rise(std::span<const double> of_pairs)
 std::vector<double> SurfaceToSurface::integrate(std::span<const double> x)
 {
   geometry::Integrals all = integrals(x, _kept);
-  if (_options.is_small)
-    all = integrals(x, _sides.between(x, *_found, all.weight, all.normal));
   _at.assign(x.begin(), x.end());
   _area = _sides.total(all.area);
   _dual = std::move(all.dual);

@@ -97,10 +97,12 @@ protected:
 private:
   void set_master_facets();
   void pair(std::span<const double> x);
-  void update_facets(std::span<const double> x, double margin);
+  void update_facets(std::span<const double> x, double margin,
+                     std::span<const double> along = {});
   bool lacks(std::span<const double> x);
   bool has_moved(std::span<const double> x) const;
-  geometry::FacetPairs find(std::span<const double> x, double margin);
+  geometry::FacetPairs find(std::span<const double> x, double margin,
+                            std::span<const double> along = {});
   geometry::FacetPairs facing(std::span<const double> x,
                               const geometry::FacetPairs& found) const;
   geometry::FacetPairs without_outside(std::span<const double> x,

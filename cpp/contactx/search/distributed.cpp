@@ -340,14 +340,15 @@ std::int32_t DistributedSurface::accept_projections(
 
 void DistributedSurface::add_facets_within(std::span<const double> x,
                                            const geometry::FacetList& slave,
-                                           double reach, double margin)
+                                           double reach, double margin,
+                                           std::span<const double> along)
 {
   const int gdim = _halo->gdim();
   check::positions(x.size(), _finder.surface().num_nodes(), gdim);
   mesh::Ranks& ranks = _halo->ranks();
   const auto near
-      = RankBoxes(ranks, own(), x, gdim).from_facets(x, slave, reach);
-  // Sizes of the facets, then their corners
+      = RankBoxes(ranks, own(), x, gdim).from_facets(x, slave, reach, along);
+  // Sizes of the facets, then their corners and directions
   mesh::Messages questions;
   for (const auto& [rank, facets] : near)
   {
@@ -360,10 +361,12 @@ void DistributedSurface::add_facets_within(std::span<const double> x,
     }
     mesh::pack<std::int32_t>(questions[rank], sizes);
     mesh::pack<double>(questions[rank], rows(x, nodes, gdim));
+    if (not along.empty())
+      mesh::pack<double>(questions[rank], rows(along, facets, 3));
   }
   // One search for what all ranks ask: its tree is made once
   geometry::Facets theirs;
-  std::vector<double> every(x.begin(), x.end());
+  std::vector<double> every(x.begin(), x.end()), directions;
   std::vector<int> asker;
   for (const auto& [rank, bytes] : ranks.exchange(questions))
   {
@@ -381,6 +384,12 @@ void DistributedSurface::add_facets_within(std::span<const double> x,
     const auto more
         = mesh::unpack<double>(left, static_cast<std::size_t>(corners) * gdim);
     every.insert(every.end(), more.begin(), more.end());
+    if (not left.empty())
+    {
+      const auto own
+          = mesh::unpack<double>(left, 3 * static_cast<std::size_t>(count));
+      directions.insert(directions.end(), own.begin(), own.end());
+    }
   }
   std::map<int, std::vector<std::int32_t>> found;
   if (!asker.empty())
@@ -388,7 +397,7 @@ void DistributedSurface::add_facets_within(std::span<const double> x,
     FacetSearch search(std::move(theirs.offsets), std::move(theirs.nodes),
                        {own().offsets.begin(), own().offsets.end()},
                        {own().nodes.begin(), own().nodes.end()}, gdim);
-    const auto pairs = search.find(every, reach, margin, true);
+    const auto pairs = search.find(every, reach, margin, true, directions);
     for (std::size_t i = 0; i < pairs.size(); ++i)
       found[asker[pairs.slave[i]]].push_back(pairs.master[i]);
   }

@@ -32,7 +32,7 @@ public:
                     std::span<const std::int8_t> closed) override;
   void add_facets_within(std::span<const double> x,
                          const geometry::FacetList& slave, double reach,
-                         double margin) override;
+                         double margin, std::span<const double> along) override;
   std::vector<std::int32_t> keep(std::span<const std::int32_t> used) override;
   std::vector<std::int32_t> named(std::span<const std::int64_t> names) override;
 

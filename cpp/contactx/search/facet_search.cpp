@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "facet_search.h"
+#include "../check.h"
 #include "../geometry/gather.h"
 #include "../geometry/segment.h"
 
@@ -72,7 +73,7 @@ public:
     for (int a = 0; a < S::tdim; ++a)
       if (apart(_plane.dual[a], _from[a], _to[a]))
         return false;
-    return !apart(_plane.n, _low, _high);
+    return !apart(_plane.conormal, _low, _high);
   }
 
 private:
@@ -163,8 +164,11 @@ FacetSearch::FacetSearch(std::vector<std::int32_t> slave_offsets,
 }
 
 geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
-                                       double margin, bool all_layers)
+                                       double margin, bool all_layers,
+                                       std::span<const double> along)
 {
+  check::rows(along.empty() ? slave().size() : along.size() / 3, slave().size(),
+              1, "along", "slave facet");
   if (!_tree)
     _tree.emplace(_master.boxes(x));
   else
@@ -179,7 +183,16 @@ geometry::FacetPairs FacetSearch::find(std::span<const double> x, double reach,
         [&]<class S>(S)
         {
           const auto xs = geometry::gather<S>(slave()[f], x);
-          const geometry::ProjectionPlane<S> plane(xs);
+          geometry::ProjectionPlane<S> plane(xs);
+          if (not along.empty())
+          {
+            Vector<S::gdim> direction;
+            for (int k = 0; k < S::gdim; ++k)
+              direction[k] = -along[3 * std::size_t(f) + k];
+            // Zero where nothing is in front
+            if (dot(direction, plane.n) > 0)
+              plane = {xs, direction};
+          }
           if (not std::isfinite(plane.n[0]))
             return;
           const geometry::Overlap<S::tdim> outline

@@ -12,7 +12,8 @@ namespace contactx::search
 {
 /// @brief Finds the master facets in front of each slave facet.
 ///
-/// Both are projected on the slave facet's plane. Where several layers of the
+/// Both are projected on the slave facet's plane, along its normal or another
+/// direction. Where several layers of the
 /// master lie over one another the nearest one counts. Facets without area or
 /// position, and those whose projection is folded, are in no pair.
 class FacetSearch
@@ -36,8 +37,11 @@ public:
   /// @param[in] margin By which part a slave facet is enlarged about its middle
   /// in the search: pairs that do not overlap yet.
   /// @param[in] all_layers Whether all layers count: for a part of the master.
+  /// @param[in] along Unit normals of the master to project along, one a slave
+  /// facet, zero for its own normal (shape=(num_slave_facets, 3)), or empty.
   geometry::FacetPairs find(std::span<const double> x, double reach,
-                            double margin, bool all_layers = false);
+                            double margin, bool all_layers = false,
+                            std::span<const double> along = {});
 
   /// @brief Geometric dimension.
   int gdim() const { return _master.gdim(); }

@@ -80,7 +80,7 @@ std::int32_t MasterSurface::pair(Pairing& pairing, const geometry::FacetList&,
 
 void MasterSurface::add_facets_within(std::span<const double>,
                                       const geometry::FacetList&, double,
-                                      double)
+                                      double, std::span<const double>)
 {
 }
 

@@ -82,9 +82,12 @@ public:
   /// @param[in] slave Slave facets.
   /// @param[in] reach Largest distance.
   /// @param[in] margin By which part slave facets are enlarged.
+  /// @param[in] along Unit normals of the master to project along, one a slave
+  /// facet, zero for its own normal (shape=(num_slave_facets, 3)), or empty.
   virtual void add_facets_within(std::span<const double> x,
                                  const geometry::FacetList& slave, double reach,
-                                 double margin);
+                                 double margin,
+                                 std::span<const double> along = {});
 
   /// @brief Keep some facets and drop the others, once the halo has shrunk.
   /// @param[in] used Facets to keep, -1 for none.

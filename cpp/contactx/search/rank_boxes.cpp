@@ -159,13 +159,17 @@ RankBoxes::Near RankBoxes::from_points(std::span<const double> points,
 
 std::map<int, std::vector<std::int32_t>>
 RankBoxes::from_facets(std::span<const double> x,
-                       const geometry::FacetList& slave, double reach) const
+                       const geometry::FacetList& slave, double reach,
+                       std::span<const double> along) const
 {
   std::map<int, std::vector<std::int32_t>> near;
   for (std::int32_t f = 0; f < slave.size(); ++f)
   {
     const Vector<3> middle = geometry::middle(slave[f], x, _gdim);
     Vector<3> normal = geometry::corner_normals(slave[f], x).mean();
+    if (not along.empty())
+      if (const Vector<3> other = vector_at(along, f, 3); norm(other) > 0)
+        normal = other;
     normal = (1 / norm(normal)) * normal;
     double wide = 0;
     for (const std::int32_t node : slave[f])

@@ -49,10 +49,12 @@ public:
   /// @param[in] x Node coordinates (shape=(num_nodes, gdim)), row-major.
   /// @param[in] slave Slave facets.
   /// @param[in] reach Half the height of the prisms.
+  /// @param[in] along Directions of the prisms (shape=(num_slave_facets, 3));
+  /// empty, or where one is zero, the facets' normals.
   /// @return Numbers of facets, ascending, for each rank that has any.
   std::map<int, std::vector<std::int32_t>>
   from_facets(std::span<const double> x, const geometry::FacetList& slave,
-              double reach) const;
+              double reach, std::span<const double> along = {}) const;
 
 private:
   // Of the ranks that have facets, in their order

@@ -329,7 +329,22 @@ TEST_P(SurfaceOnRanks, LookingFindsAllFacetsInFront)
         slave_offsets, {scene.nodes.begin() + begin, scene.nodes.end()},
         {first, first + num_master + 1},
         {scene.nodes.begin(), scene.nodes.begin() + begin}, gdim);
-    const auto pairs = one.find(scene.x, reach, margin, true);
+    // Along the facets' normals, or other directions
+    const auto along
+        = [&](const geometry::FacetList& slave, std::span<const double> x)
+    {
+      std::vector<double> directions;
+      for (std::int32_t f = 0; seed % 3 == 1 and f < slave.size(); ++f)
+      {
+        Vector<3> n = geometry::corner_normals(slave[f], x).mean();
+        n = Vector<3>{0.3, 0, 0} - (1 / norm(n)) * n;
+        n = (1 / norm(n)) * n;
+        directions.insert(directions.end(), n.begin(), n.end());
+      }
+      return directions;
+    };
+    const auto pairs
+        = one.find(scene.x, reach, margin, true, along(one.slave(), scene.x));
     EXPECT_GT(pairs.size(), 5);
     const DistributedScene parts(scene, GetParam(), seed, seed % 2);
     const auto work = [&](ThreadRanks& ranks)
@@ -338,7 +353,9 @@ TEST_P(SurfaceOnRanks, LookingFindsAllFacetsInFront)
       const auto own = part(parts, *halo, num_master, scene.facets().size());
       const auto surface = surface_of(parts, halo, 0, num_master);
       const int before = ranks.num_exchanges;
-      surface->add_facets_within(halo->now()->x, own.list(), reach, margin);
+      const auto x = halo->now()->x;
+      surface->add_facets_within(x, own.list(), reach, margin,
+                                 along(own.list(), x));
       EXPECT_LE(ranks.num_exchanges - before, 2);
       std::set<Name> expected;
       for (std::size_t i = 0; i < pairs.size(); ++i)

@@ -6,6 +6,7 @@
 #include "mortar_reference.h"
 #include <contactx/geometry/projection_plane.h>
 #include <contactx/geometry/segment.h>
+#include <numeric>
 #include <set>
 
 using namespace contactx;
@@ -189,6 +190,37 @@ TEST_2D_3D(FacetSearch, ReachesSoFar, gdim)
     EXPECT_GT(scene.find(0.501).size(), 0u);
     EXPECT_EQ(scene.find(infinity), scene.find(0.501));
   }
+}
+
+TEST_2D_3D(FacetSearch, FindsWhatIsInFrontAlongOtherDirections, gdim)
+{
+  const Facing scene = waves(gdim, Cells::mixed, 0.3, 0.1);
+  const FacetPairs all = scene.all_pairs();
+  std::vector<double> along = scene.integrals(all, scene.x).normal;
+  for (std::size_t f = 0; f < along.size() / 3; ++f)
+  {
+    // Of every second facet: tilted
+    Vector<3> n = vector_at(along, f, 3) + Vector<3>{f % 2 ? 1.0 : 0.0, 0, 0};
+    n = (1 / norm(n)) * n;
+    std::ranges::copy(n, along.begin() + 3 * static_cast<std::ptrdiff_t>(f));
+  }
+  const Pairs along_normals = set_of(scene.find()),
+              found = set_of(scene.search().find(scene.x, 10, 0, false, along));
+  const Integrals shared = scene.integrals(all, scene.x, along);
+  const std::size_t n = shared.weight.size() / all.size();
+  int others = 0;
+  for (std::size_t p = 0; p < all.size(); ++p)
+  {
+    const auto first
+        = shared.weight.begin() + static_cast<std::ptrdiff_t>(n * p);
+    if (std::accumulate(first, first + static_cast<std::ptrdiff_t>(n), 0.0)
+        < 1e-12)
+      continue;
+    const std::pair pair{all.slave[p], all.master[p]};
+    EXPECT_TRUE(found.contains(pair));
+    others += not along_normals.contains(pair);
+  }
+  EXPECT_GT(others, 0);
 }
 
 TEST(FacetSearch, FindsFacetsThatFaceEachOther)
