@@ -9,7 +9,7 @@
 namespace contactx_dolfinx
 {
 // Of the messages in which index maps find out who has their ghosts
-static constexpr int halo_tag = 7090;
+constexpr int halo_tag = 7090;
 
 HaloAdapter::HaloAdapter(std::shared_ptr<Function> u)
     : _u(std::move(u)), _map(_u->function_space()->dofmap()->index_map),
