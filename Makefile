@@ -219,7 +219,8 @@ leaks: $(TESTABLE)
 
 # Kernels and search on one core: tables, and the same as CSV files.
 bench-core: $(TESTER)
-	$(RUN) cmake -S . -B build/bench -G Ninja -DCONTACTX_BENCHMARKS=ON -DCONTACTX_PYTHON=OFF
+	$(RUN) cmake -S . -B build/bench -G Ninja -DCONTACTX_BENCHMARKS=ON -DCONTACTX_PYTHON=OFF \
+		-DCONTACTX_DOLFINX=OFF
 	$(RUN) cmake --build build/bench
 	build/bench/bench_kernels build/bench
 	build/bench/bench_search 1000000 build/bench
@@ -236,7 +237,7 @@ bench: bench-core $(TESTABLE)
 # was new stays there, and what fails comes to build/fuzz.
 fuzz: $(TESTER)
 	@command -v $(CLANG) >/dev/null || { echo "contactx: make fuzz needs Clang with libFuzzer, and there is no $(CLANG): install it or name it with 'make fuzz CLANG=...'" >&2; exit 1; }
-	$(RUN) cmake -S . -B build/fuzz -G Ninja -DCONTACTX_FUZZ=ON -DCONTACTX_PYTHON=OFF \
+	$(RUN) cmake -S . -B build/fuzz -G Ninja -DCONTACTX_FUZZ=ON -DCONTACTX_PYTHON=OFF -DCONTACTX_DOLFINX=OFF \
 		-DCMAKE_CXX_COMPILER=$(CLANG)
 	$(RUN) cmake --build build/fuzz
 	status=0; for target in build/fuzz/targets/*; do \
@@ -249,7 +250,7 @@ fuzz: $(TESTER)
 # Python's own allocations are never all given back: leaks are looked for in
 # the C++ tests alone.
 sanitize: $(TESTER)
-	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON -DCONTACTX_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+	$(RUN) cmake -S . -B build/sanitize -G Ninja -DCONTACTX_SANITIZE=ON -DCONTACTX_TESTS=ON -DCONTACTX_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCONTACTX_DOLFINX=OFF \
 		-DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" \
 		-Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	$(RUN) cmake --build build/sanitize --target all contactx_tests

@@ -165,6 +165,9 @@ say "C++ on the distribution's DOLFINx"
 inside sh -c 'set -e
 	cd /root/contactx
 	build() { cmake --build "$1" -j "$(nproc)"; }
+	cmake -S cpp/contactx_dolfinx -B /root/cpp/library -G Ninja -DCMAKE_PREFIX_PATH=/root/cpp/installed
+	build /root/cpp/library
+	cmake --install /root/cpp/library
 	for project in demos/cpp/hertz demos/cpp/sliding_block demos/cpp/pressed_block demos/cpp/own_forms \
 		tests/dolfinx_cpp; do
 		cmake -S $project -B /root/cpp/$project -G Ninja -DCMAKE_BUILD_TYPE=Release \

@@ -15,7 +15,7 @@
 #
 # Usage: tools/gate.sh FOLDER PYTHON CORE
 #   PYTHON is of an environment with contactx, CORE where CMake has installed the
-#   component development
+#   component development of the core
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -138,7 +138,7 @@ done
 program launch "$root/usr/bin/prterun" " --allow-run-as-root --map-by :oversubscribe"
 export OPAL_PREFIX="$root/usr" PRTE_PREFIX="$root/usr" PMIX_PREFIX="$root/usr"
 
-say "compiling headers, demos and tests with g++ $major against DOLFINx $kept"
+say "compiling library, headers, demos and tests with g++ $major against DOLFINx $kept"
 PATH=$(dirname "$python"):$PATH
 export PATH
 [ "$(cat "$folder/of" 2> /dev/null)" = "$kept $root $source" ] || rm -rf "$folder/build"

@@ -3,22 +3,23 @@
 
 #pragma once
 
+#include "bulk.h"
+#include "conductance.h"
 #include "contact.h"
-#include "jacobian.h"
-#include <contactx/mesh/degenerate.h>
 #include <contactx/problem/checkpoint.h>
 #include <contactx/problem/problem.h>
-#include <contactx/solve/not_finite.h>
 #include <petscksp.h>
 
-/// @brief Contact beside the forms of DOLFINx 0.11, compiled in the program
-/// that uses it: an adapter of the core, without any rule of contact.
+/// @brief Contact beside the forms of DOLFINx 0.11: an adapter of the core,
+/// without any rule of contact.
 namespace contactx_dolfinx
 {
 using contactx::problem::ConvergenceError;
 using contactx::problem::Settled;
 using contactx::problem::StepPlan;
 using contactx::problem::Tolerances;
+
+class Jacobian;
 
 /// @brief The system of a bulk and its contacts, for a Newton loop of one's
 /// own.
@@ -74,11 +75,7 @@ public:
             std::shared_ptr<Function> u,
             std::vector<std::shared_ptr<const DirichletBC>> bcs,
             std::vector<std::shared_ptr<Contact>> contacts,
-            Audit audit = Audit::refuse)
-      : Assembler(alone(std::move(F), std::move(J), std::move(u)),
-                  std::move(bcs), std::move(contacts), audit)
-  {
-  }
+            Audit audit = Audit::refuse);
 
   /// @brief Couple a bulk of several fields with contacts: a mixed space, or a
   /// block of rows and columns a function.
@@ -98,106 +95,20 @@ public:
             std::vector<std::shared_ptr<const DirichletBC>> bcs,
             std::vector<std::shared_ptr<Contact>> contacts,
             Audit audit = Audit::refuse,
-            std::vector<std::shared_ptr<Conductance>> conductances = {})
-      : _contacts(std::move(contacts))
-  {
-    const auto unknowns
-        = std::make_shared<Unknowns>(blocks.functions, blocks.displacement);
-    _u = unknowns->u();
-    input::check_blocks(blocks);
-    input::check_conditions(bcs, blocks.functions);
-    if (_contacts.empty())
-      throw std::invalid_argument(
-          "an Assembler needs at least one contact: pass one");
-    for (std::size_t k = 0; k < _contacts.size(); ++k)
-      if (_contacts[k] == nullptr)
-        throw std::invalid_argument("contacts[" + std::to_string(k)
-                                    + "] is null: give a Contact");
-    const FunctionSpace& V = *_u->function_space();
+            std::vector<std::shared_ptr<Conductance>> conductances = {});
 
-    auto adapter = std::make_unique<HaloAdapter>(_u);
-    HaloAdapter* const owned = adapter.get();
-    contactx::mesh::BulkNodes nodes = adapter->bulk_nodes();
-    _halo = std::make_shared<contactx::mesh::Halo>(std::move(nodes),
-                                                   std::move(adapter));
-    _adapter = std::shared_ptr<HaloAdapter>(_halo, owned);
-    _bulk = std::make_shared<Bulk>(blocks, unknowns, std::move(bcs), _halo,
-                                   _adapter);
-    check(conductances);
-    const auto bodies = std::make_shared<contactx::mesh::Bodies>(
-        _bulk->all_cells(), _bulk->nodes_per_cell(), _bulk->num_owned_cells(),
-        _halo->original().first(_halo->num_bulk()), _halo);
-    std::size_t count = 0;
-    try
-    {
-      contactx::solve::System::Contacts discrete;
-      std::vector<contactx::problem::Part> parts;
-      for (; count < _contacts.size(); ++count)
-      {
-        const Contact& contact = *_contacts[count];
-        discrete.push_back(_contacts[count]->attach(
-            {_halo, bodies, _bulk->all_cells(), _bulk->nodes_per_cell()},
-            _adapter, _bulk->all_markers(), _u->function_space()));
-        parts.push_back(
-            {"contact " + std::to_string(count) + " (" + contact.name() + ")",
-             contact.values(), contact.shared_results()});
-      }
-      check_cells();
-      for (const auto& conductance : conductances)
-        conductance->check();
-      _bulk->follow(std::move(conductances));
-      _system = std::make_shared<contactx::solve::System>(_halo, _bulk,
-                                                          std::move(discrete));
-      _problem = std::make_unique<contactx::problem::Problem>(
-          _system, bodies, std::move(parts), audit == Audit::refuse);
-      _jacobian = std::make_unique<Jacobian>(_system, _bulk);
-      _x = std::make_unique<petsc::OwnVec>(create_vector());
-    }
-    catch (...)
-    {
-      for (std::size_t k = 0; k < count; ++k)
-        _contacts[k]->detach();
-      throw;
-    }
-  }
-
-  ~Assembler()
-  {
-    for (const auto& contact : _contacts)
-      contact->detach();
-  }
+  ~Assembler();
   Assembler(const Assembler&) = delete;
   Assembler& operator=(const Assembler&) = delete;
 
   /// @brief A vector of all unknowns, which the caller destroys.
-  ::Vec create_vector() const
-  {
-    ::Vec x = nullptr;
-    petsc::check(VecCreateMPI(comm(), static_cast<PetscInt>(_system->size()),
-                              PETSC_DETERMINE, &x),
-                 "VecCreateMPI");
-    return x;
-  }
+  ::Vec create_vector() const;
 
   /// @brief A matrix of all unknowns for `J`, which the caller destroys.
-  ::Mat create_matrix() const
-  {
-    ::Mat A = nullptr;
-    const auto size = static_cast<PetscInt>(_system->size());
-    petsc::check(MatCreate(comm(), &A), "MatCreate");
-    petsc::check(MatSetSizes(A, size, size, PETSC_DETERMINE, PETSC_DETERMINE),
-                 "MatSetSizes");
-    petsc::check(MatSetType(A, MATAIJ), "MatSetType");
-    petsc::check(MatSetUp(A), "MatSetUp");
-    return A;
-  }
+  ::Mat create_matrix() const;
 
   /// @brief The unknowns of now. It belongs to the assembler.
-  ::Vec x() const
-  {
-    pack();
-    return _x->get();
-  }
+  ::Vec x() const;
 
   /// @brief Take a whole load step from u, with the loads and Dirichlet values
   /// of now: Newton's method, once more with damped steps where full ones do
@@ -208,20 +119,7 @@ public:
   /// @throws ConvergenceError if it does not converge.
   /// @throws std::invalid_argument as `begin_step` does.
   void solve(contactx::problem::LinearSolver& solver,
-             const Tolerances& tolerances = {})
-  {
-    try
-    {
-      _problem->solve(solver, tolerances);
-    }
-    catch (...)
-    {
-      pack();
-      throw;
-    }
-    pack();
-    show();
-  }
+             const Tolerances& tolerances = {});
 
   /// @brief Take the next of some load steps, and shorter ones until one
   /// converges:
@@ -242,62 +140,25 @@ public:
   void advance(StepPlan& plan, const std::function<void(double t)>& update,
                contactx::problem::LinearSolver& solver,
                const Tolerances& tolerances = {},
-               const contactx::problem::StepLog& log = {})
-  {
-    try
-    {
-      _problem->advance(plan, update, solver, tolerances, log);
-    }
-    catch (...)
-    {
-      pack();
-      show();
-      throw;
-    }
-    pack();
-    show();
-  }
+               const contactx::problem::StepLog& log = {});
 
   /// @brief Start a load step from u, with the loads and Dirichlet values of
   /// now.
   /// @throws ConvergenceError if the residual is not finite.
   /// @throws std::invalid_argument if Dirichlet conditions keep slave nodes
   /// inside a rigid obstacle, or values of a contact do not fit.
-  void begin_step()
-  {
-    try
-    {
-      _problem->begin_step();
-    }
-    catch (const contactx::solve::NotFinite& error)
-    {
-      throw ConvergenceError(error.what());
-    }
-    pack();
-  }
+  void begin_step();
 
   /// @brief Return to where the last step began, bit for bit, with all
   /// contacts: where it does not converge, and shorter ones may.
-  void restore()
-  {
-    _problem->restore();
-    pack();
-    show();
-  }
+  void restore();
 
   /// @brief Go on from the state of another run, as a Checkpoint has it.
   /// @param[in] checkpoint Checkpoint of this problem.
   /// @param[in] state The state; functions have their values of it.
   /// @throws std::invalid_argument on all ranks if they do not fit.
   void take(const contactx::problem::Checkpoint& checkpoint,
-            const contactx::problem::Checkpoint::State& state)
-  {
-    _bulk->read();
-    checkpoint.apply(state);
-    _problem->update_results();
-    pack();
-    show();
-  }
+            const contactx::problem::Checkpoint::State& state);
 
   /// @brief Update pairs and active set at an accepted iterate, and judge its
   /// residual.
@@ -308,54 +169,27 @@ public:
   /// @param[in] atol Absolute tolerance, a force.
   /// @param[in] max_it Most linear solves of the step.
   /// @throws ConvergenceError if no solution is to be expected any more.
-  const Settled& settle(double rtol = 1e-11, double atol = 0, int max_it = 50)
-  {
-    const Settled& found = _problem->settle(rtol, atol, max_it);
-    // Iterates may have been taken back
-    pack();
-    if (not found.failure.empty())
-      throw ConvergenceError(found.failure);
-    return found;
-  }
+  const Settled& settle(double rtol = 1e-11, double atol = 0, int max_it = 50);
 
   /// @brief Assemble the residual of bulk and contacts. Rows of Dirichlet
   /// conditions are displacements minus prescribed ones.
   /// @param[in] x Unknowns: the state becomes this.
   /// @param[out] b Residual.
-  void residual(::Vec x, ::Vec b)
-  {
-    _problem->enter("residual");
-    take(x);
-    // Loads may be others, as in arc-length methods
-    _system->begin_step();
-    _system->residual(petsc::Values(b).span());
-  }
+  void residual(::Vec x, ::Vec b);
 
   /// @brief Assemble the Jacobian of bulk and contacts: a saddle point.
   ///
   /// Its pattern is another one where pairs have changed, which KSP notices.
   /// @param[in] x Unknowns: the state becomes this.
   /// @param[out] A Jacobian, a matrix of `create_matrix`.
-  void jacobian(::Vec x, ::Mat A)
-  {
-    _problem->enter("jacobian");
-    take(x);
-    _jacobian->assemble(A, loop().free_bodies().springs());
-  }
+  void jacobian(::Vec x, ::Mat A);
 
   /// @brief Give a KSP of one's own the Jacobian of the iterate that has
   /// settled last.
   /// @param[in] ksp The solver.
   /// @throws std::logic_error if none has settled since the last step was
   /// taken.
-  void set_up(::KSP ksp)
-  {
-    _problem->enter("set_up", {{"condensed", 0}});
-    if (not _A)
-      _A = std::make_unique<petsc::OwnMat>(create_matrix());
-    _jacobian->assemble(_A->get(), loop().free_bodies().springs());
-    petsc::check(KSPSetOperators(ksp, _A->get(), _A->get()), "KSPSetOperators");
-  }
+  void set_up(::KSP ksp);
 
   /// @brief Part of a step that may be taken.
   ///
@@ -372,31 +206,13 @@ public:
   /// @brief Add a step to the unknowns: to u and the contacts' multipliers.
   /// @param[in] dx The step.
   /// @param[in] part Part of it.
-  void update(::Vec dx, double part = 1)
-  {
-    _problem->update(petsc::ConstValues(dx).span(), part);
-    pack();
-  }
+  void update(::Vec dx, double part = 1);
 
   /// @brief Take the solution as the start of the next step.
   /// @throws std::logic_error if the iterate that has settled last is none.
   /// @throws std::invalid_argument if a level set that is touched with friction
   /// has moved.
-  void accept()
-  {
-    _problem->enter("accept");
-    _problem->summarise();
-    try
-    {
-      _problem->accept();
-    }
-    catch (...)
-    {
-      pack();
-      throw;
-    }
-    show();
-  }
+  void accept();
 
   /// @brief Report of the step: iterates, what the audit has found, totals.
   const contactx::problem::Report& report() const { return _problem->report(); }
@@ -433,64 +249,13 @@ public:
   int number() const { return _problem->number(); }
 
 private:
-  /// A displacement alone.
-  static Blocks alone(std::shared_ptr<const Form> F,
-                      std::shared_ptr<const Form> J,
-                      std::shared_ptr<Function> u)
-  {
-    input::check_displacement(u.get());
-    return {{std::move(F)}, {{std::move(J)}}, {std::move(u)}};
-  }
-
   void
-  check(const std::vector<std::shared_ptr<Conductance>>& conductances) const
-  {
-    for (std::size_t k = 0; k < conductances.size(); ++k)
-    {
-      const std::string name = "conductances[" + std::to_string(k) + "]";
-      if (conductances[k] == nullptr)
-        throw std::invalid_argument(name + " is null: give a Conductance");
-      if (std::ranges::find(_contacts, conductances[k]->contact())
-          == _contacts.end())
-        throw std::invalid_argument(
-            name + " is of another contact: list it among the contacts");
-      const auto& field = conductances[k]->field();
-      if (field == _u
-          or _bulk->number_of(*field) == int(_bulk->functions().size()))
-        throw std::invalid_argument(
-            "the field of " + name
-            + " is not solved for: give it among the functions of Blocks; a "
-              "part of a mixed space will not do. Where it is solved for by "
-              "itself, leave the conductance out and take its residual() and "
-              "by_field()");
-    }
-  }
-
-  void check_cells() const
-  {
-    const FunctionSpace& V = *_u->function_space();
-    const auto& topology = *V.mesh()->topology();
-    contactx::mesh::check_cells(
-        _halo->ranks(), cells_of(V).type, geometry_of(*V.mesh()),
-        topology.index_map(topology.dim())->size_local(),
-        original_cells(*V.mesh()));
-  }
-
+  check(const std::vector<std::shared_ptr<Conductance>>& conductances) const;
+  void check_cells() const;
   MPI_Comm comm() const { return _u->function_space()->mesh()->comm(); }
-
-  void show() const
-  {
-    for (const auto& contact : _contacts)
-      contact->show();
-  }
-
+  void show() const;
   void pack() const { _system->unknowns(petsc::Values(_x->get()).span()); }
-
-  void take(::Vec x)
-  {
-    const petsc::ConstValues values(x);
-    _system->take(values.span());
-  }
+  void take(::Vec x);
 
   std::shared_ptr<Function> _u;
   std::vector<std::shared_ptr<Contact>> _contacts;
@@ -513,27 +278,10 @@ public:
   /// @brief Take a solver.
   /// @param[in] assembler The system; it must outlive this.
   /// @param[in] ksp The solver, as its options set it; it must outlive this.
-  KSPSolver(Assembler& assembler, ::KSP ksp)
-      : _assembler(&assembler), _ksp(ksp), _b(assembler.create_vector()),
-        _x(assembler.create_vector())
-  {
-  }
+  KSPSolver(Assembler& assembler, ::KSP ksp);
 
   void update() override { _assembler->set_up(_ksp); }
-
-  void solve(std::span<const double> b, std::span<double> x) override
-  {
-    std::ranges::copy(b, petsc::Values(_b.get()).span().begin());
-    petsc::check(KSPSolve(_ksp, _b.get(), _x.get()), "KSPSolve");
-    KSPConvergedReason reason{};
-    petsc::check(KSPGetConvergedReason(_ksp, &reason), "KSPGetConvergedReason");
-    if (reason < 0)
-      throw contactx::solve::NotFinite(
-          "the linear solver failed: is a body free to move without touching "
-          "anything? Support it; with a Krylov solver of your own try pc_type "
-          "lu (manual: errors/linear-solver-failed)");
-    std::ranges::copy(petsc::ConstValues(_x.get()).span(), x.begin());
-  }
+  void solve(std::span<const double> b, std::span<double> x) override;
 
 private:
   Assembler* _assembler;

@@ -3,21 +3,24 @@
 
 #pragma once
 
-#include "cells.h"
-#include "contact_forms.h"
 #include "functions.h"
 #include "surface.h"
 #include "values.h"
 #include <contactx/geometry/obstacle.h>
-#include <contactx/problem/make_contact.h>
-#include <functional>
-#include <optional>
-#include <variant>
+#include <contactx/results/results.h>
+
+namespace contactx::mesh
+{
+struct Mesh;
+}
 
 namespace contactx_dolfinx
 {
 using contactx::contact::Method;
 using contactx::contact::Sliding;
+
+class ContactForms;
+class HaloAdapter;
 
 /// @brief Options of a contact.
 struct Options
@@ -78,20 +81,7 @@ public:
   /// @param[in] options How it is.
   /// @throws std::invalid_argument if options are out of their range or exclude
   /// each other, or the obstacle is null.
-  Contact(Surface slave, Master master, Options options = {})
-      : _slave(std::move(slave)), _master(std::move(master)), _options(options),
-        _values(std::make_shared<Values>(options.friction, options.offset))
-  {
-    if (_options.friction and _options.friction_law)
-      throw std::invalid_argument("a Contact has friction or a friction_law: "
-                                  "leave one of them out");
-    const auto* obstacle
-        = std::get_if<std::shared_ptr<contactx::geometry::Obstacle>>(&_master);
-    if (obstacle and *obstacle == nullptr)
-      throw std::invalid_argument("the obstacle of a Contact is null: give a "
-                                  "Plane, Sphere, Cylinder or LevelSet");
-    contactx::problem::check(core_options(), is_self());
-  }
+  Contact(Surface slave, Master master, Options options = {});
 
   /// @brief Make the contact's discrete side; the Assembler does so. All ranks
   /// must take part.
@@ -106,46 +96,15 @@ public:
   attach(const contactx::mesh::Mesh& mesh,
          std::shared_ptr<const HaloAdapter> adapter,
          std::vector<std::int8_t> prescribed,
-         const std::shared_ptr<const FunctionSpace>& V)
-  {
-    if (_discrete)
-      throw std::logic_error(
-          "the contact belongs to an Assembler already: create one Contact an "
-          "Assembler");
-    try
-    {
-      make(mesh, std::move(prescribed), V);
-      _V = V;
-      _adapter = std::move(adapter);
-      return _discrete;
-    }
-    catch (...)
-    {
-      detach();
-      throw;
-    }
-  }
+         const std::shared_ptr<const FunctionSpace>& V);
 
   /// @brief Leave the Assembler, which is gone.
-  void detach()
-  {
-    _discrete.reset();
-    _results.reset();
-    _functions.reset();
-    _forms.reset();
-    _adapter.reset();
-  }
+  void detach();
 
   /// @brief Take another coefficient of friction, on all ranks, from the next
   /// iterate on.
   /// @throws std::invalid_argument if the contact was created without one.
-  void set_friction(Value friction)
-  {
-    if (not _options.friction)
-      throw std::invalid_argument(
-          "the contact has no friction: create it with one, zero will do");
-    _values->set_friction(std::move(friction));
-  }
+  void set_friction(Value friction);
 
   /// @brief Take another length off the gap, on all ranks, from the next
   /// iterate on.
@@ -159,39 +118,20 @@ public:
 
   /// @brief The core's side.
   /// @throws std::logic_error if it does not exist yet.
-  contactx::contact::Contact& discrete() const
-  {
-    if (not _discrete)
-      throw std::logic_error(
-          "a contact has no results before it belongs to an Assembler: pass it "
-          "to one first");
-    return *_discrete;
-  }
+  contactx::contact::Contact& discrete() const;
 
   /// @brief The same, to keep.
-  const std::shared_ptr<contactx::contact::Contact>& shared_discrete() const
-  {
-    discrete();
-    return _discrete;
-  }
+  const std::shared_ptr<contactx::contact::Contact>& shared_discrete() const;
 
   /// @brief Space of the displacement.
   /// @throws std::logic_error if it belongs to no Assembler yet.
-  const FunctionSpace& space() const
-  {
-    discrete();
-    return *_V;
-  }
+  const FunctionSpace& space() const;
 
   /// @brief Whether the master is a rigid obstacle.
   bool is_rigid() const { return not std::holds_alternative<Surface>(_master); }
 
   /// @brief Whether it is a contact of a surface with itself.
-  bool is_self() const
-  {
-    const auto* master = std::get_if<Surface>(&_master);
-    return master and master->is(_slave);
-  }
+  bool is_self() const;
 
   /// @brief Slave nodes, as the blocks of the displacement's dofs (shape=(n)).
   std::span<const std::int32_t> slave_nodes() const
@@ -212,11 +152,7 @@ public:
 
   /// @brief All results, those of the last accepted step.
   /// @throws std::logic_error if there are none yet.
-  const contactx::results::Results& results() const
-  {
-    discrete();
-    return *_results;
-  }
+  const contactx::results::Results& results() const;
 
   /// @brief Pressures, force/area, recovered from the multipliers, see
   /// contactx::results::Recovery (shape=(n)).
@@ -256,28 +192,14 @@ public:
   /// @param[in] point The point that it is about (shape=(gdim)).
   /// @throws std::invalid_argument if the point is not finite.
   /// @throws std::logic_error if the model is axisymmetric.
-  contactx::Vector<3> moment(const contactx::Vector<3>& point) const
-  {
-    return results().moment(
-        std::span<const double>(point).first(results().gdim()));
-  }
+  contactx::Vector<3> moment(const contactx::Vector<3>& point) const;
 
   /// @brief Sums and extremes over all ranks, which must take part.
   contactx::results::Totals totals() const { return results().totals(); }
 
   /// @brief The results as functions of DOLFINx, which follow the accepted
   /// steps from the first call on. All ranks must take part.
-  const Functions& functions()
-  {
-    discrete();
-    if (not _functions)
-    {
-      _functions = std::make_unique<Functions>(_V, slave_nodes(),
-                                               discrete().law()->is_tied());
-      _functions->take(*_results);
-    }
-    return *_functions;
-  }
+  const Functions& functions();
 
   /// @brief Residual and Jacobian of the contact as forms of DOLFINx; all ranks
   /// must take part.
@@ -287,15 +209,7 @@ public:
   /// `settle` or `update`.
   /// @return The forms, always the same object.
   /// @throws std::logic_error if it belongs to no Assembler yet.
-  const ContactForms& forms()
-  {
-    discrete();
-    if (not _forms)
-      _forms = std::make_unique<ContactForms>(_discrete, _adapter,
-                                              _V->mesh()->comm());
-    _forms->update();
-    return *_forms;
-  }
+  const ContactForms& forms();
 
   /// @brief The results as the core's driver of a step updates them.
   const std::shared_ptr<contactx::results::Results>& shared_results() const
@@ -305,74 +219,12 @@ public:
 
   /// @brief Copy the results to the functions, where these are asked for; the
   /// Assembler does so. All ranks must take part.
-  void show()
-  {
-    if (_functions)
-      _functions->take(*_results);
-  }
+  void show();
 
 private:
   void make(const contactx::mesh::Mesh& mesh,
             std::vector<std::int8_t> prescribed,
-            const std::shared_ptr<const FunctionSpace>& V)
-  {
-    const auto& halo = mesh.halo;
-    const contactx::geometry::Facets slave
-        = _slave.facet_nodes(*V, halo->ranks(), "slave");
-    contactx::geometry::Facets facets;
-    contactx::problem::Sides sides{
-        .slave = {_slave.name(), slave.list()},
-        .master = std::shared_ptr<contactx::geometry::Obstacle>(),
-        .is_self = is_self(),
-        .level = contactx::mesh::node_levels(cells_of(*V), num_nodes(*V))};
-    if (const auto* surface = std::get_if<Surface>(&_master))
-    {
-      facets = surface->facet_nodes(*V, halo->ranks(), "master");
-      sides.master
-          = contactx::mesh::NamedSurface{surface->name(), facets.list()};
-    }
-    else
-      sides.master
-          = std::get<std::shared_ptr<contactx::geometry::Obstacle>>(_master);
-    if (_options.weight)
-      sides.weight = [&](std::span<const std::int32_t> nodes)
-      { return weights(*halo, nodes); };
-    _name = _options.name.empty()
-                ? contactx::problem::name_of(sides, _options.sliding)
-                : _options.name;
-    _discrete = contactx::problem::make_contact(mesh, sides, core_options(),
-                                                std::move(prescribed));
-    _results = std::make_shared<contactx::results::Results>(_discrete);
-    halo->ranks().agree([&] { _values->attach(V, slave_nodes()); });
-  }
-
-  contactx::problem::ContactOptions core_options() const
-  {
-    return {.method = _options.method,
-            .sliding = _options.sliding,
-            .tied = _options.tied,
-            .has_friction = _options.friction or _options.friction_law,
-            .bound = _options.friction_law,
-            .search_distance = _options.search_distance,
-            .excluded_distance = _options.excluded_distance,
-            .adjust = _options.adjust,
-            .smooth = _options.smooth,
-            .tangential_factor = _options.tangential_factor};
-  }
-
-  std::vector<double> weights(const contactx::mesh::Halo& halo,
-                              std::span<const std::int32_t> nodes) const
-  {
-    std::vector<double> values;
-    for (const std::int32_t node : nodes)
-    {
-      contactx::Vector<3> x{};
-      std::copy_n(halo.reference().begin() + halo.gdim() * node, halo.gdim(),
-                  x.begin());
-      values.push_back(_options.weight(x));
-    }
-    return values;
-  }
+            const std::shared_ptr<const FunctionSpace>& V);
 
   Surface _slave;
   Master _master;
@@ -384,6 +236,6 @@ private:
   std::shared_ptr<const FunctionSpace> _V;
   std::shared_ptr<const HaloAdapter> _adapter;
   std::unique_ptr<Functions> _functions;
-  std::unique_ptr<ContactForms> _forms;
+  std::shared_ptr<ContactForms> _forms;
 };
 } // namespace contactx_dolfinx

@@ -3,18 +3,10 @@
 
 #pragma once
 
-#include <algorithm>
-#include <basix/finite-element.h>
 #include <dolfinx/fem/DirichletBC.h>
-#include <dolfinx/fem/DofMap.h>
 #include <dolfinx/fem/Form.h>
 #include <dolfinx/fem/Function.h>
-#include <dolfinx/fem/FunctionSpace.h>
-#include <dolfinx/fem/utils.h>
-#include <dolfinx/mesh/Mesh.h>
-#include <dolfinx/mesh/cell_types.h>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,55 +26,23 @@ using DirichletBC = dolfinx::fem::DirichletBC<double>;
 
 /// @brief Space of an element whose dofs need no permutation, on a mesh that
 /// others have. All ranks must take part.
-inline std::shared_ptr<const FunctionSpace> create_space(
+std::shared_ptr<const FunctionSpace> create_space(
     const std::shared_ptr<const dolfinx::mesh::Mesh<double>>& mesh,
-    const std::shared_ptr<const dolfinx::fem::FiniteElement<double>>& element)
-{
-  return std::make_shared<const FunctionSpace>(
-      mesh, element,
-      std::make_shared<const dolfinx::fem::DofMap>(dolfinx::fem::create_dofmap(
-          mesh->comm(), dolfinx::fem::create_element_dof_layout(*element),
-          *mesh->topology_mutable(), nullptr, nullptr)));
-}
+    const std::shared_ptr<const dolfinx::fem::FiniteElement<double>>& element);
 
 /// @brief Whether a space is a continuous Lagrange space of degree 1 or 2, of
 /// numbers or of vectors: its blocks of dofs are the nodes.
-inline bool is_lagrange(const FunctionSpace& V)
-{
-  if (V.element()->is_mixed())
-    return false;
-  const auto& element = V.element()->basix_element();
-  return element.family() == basix::element::family::P
-         and not element.discontinuous()
-         and (element.degree() == 1 or element.degree() == 2);
-}
+bool is_lagrange(const FunctionSpace& V);
 
 namespace input
 {
 /// @brief Check that a displacement is one that contact can act on.
 /// @throws std::invalid_argument if it is null or not of a Lagrange space of
 /// vectors of degree 1 or 2 on cells of the dimension of space.
-inline void check_displacement(const Function* u)
-{
-  if (u == nullptr)
-    throw std::invalid_argument("u is null: give the displacement");
-  const FunctionSpace& V = *u->function_space();
-  const auto& mesh = *V.mesh();
-  const int gdim = mesh.geometry().dim(), tdim = mesh.topology()->dim();
-  if (gdim != tdim or gdim < 2)
-    throw std::invalid_argument("contact needs plane cells in the plane or "
-                                "solid ones in space");
-  if (V.dofmap()->bs() != gdim or not is_lagrange(V))
-    throw std::invalid_argument(
-        "the displacement must be of a continuous Lagrange space of vectors: "
-        "take degree 1 or 2 and as many components as the mesh has dimensions");
-}
+void check_displacement(const Function* u);
 
 /// @brief Whether a space is that of a displacement, whole.
-inline bool is_space_of(const Function& u, const FunctionSpace& V)
-{
-  return V.component().empty() and u.function_space()->contains(V);
-}
+bool is_space_of(const Function& u, const FunctionSpace& V);
 
 /// @brief Check that a form has arguments of the spaces of some functions.
 /// @param[in] form The form.
@@ -90,45 +50,15 @@ inline bool is_space_of(const Function& u, const FunctionSpace& V)
 /// @param[in] arguments The functions, and what messages call them.
 /// @param[in] advice What to give.
 /// @throws std::invalid_argument if it is null or another one.
-inline void check_form(
+void check_form(
     const Form* form, const std::string& name,
     const std::vector<std::pair<const Function*, std::string>>& arguments,
-    const std::string& advice)
-{
-  if (form == nullptr)
-    throw std::invalid_argument(name + " is null: " + advice);
-  const int count = static_cast<int>(arguments.size());
-  if (form->rank() != count)
-    throw std::invalid_argument(name + " has " + std::to_string(form->rank())
-                                + " arguments, but must have "
-                                + std::to_string(count) + ": " + advice);
-  for (int k = 0; k < count; ++k)
-    if (const auto& [w, its] = arguments[k];
-        not is_space_of(*w, *form->function_spaces()[k]))
-      throw std::invalid_argument(
-          name + " has an argument that is not of the function space of " + its
-          + ": create the form with " + its + "'s own function space");
-}
+    const std::string& advice);
 
 /// @brief Check that Dirichlet conditions are those of some functions.
 /// @throws std::invalid_argument if one is null or of another space.
-inline void
-check_conditions(const std::vector<std::shared_ptr<const DirichletBC>>& bcs,
-                 const std::vector<std::shared_ptr<Function>>& functions)
-{
-  for (std::size_t k = 0; k < bcs.size(); ++k)
-  {
-    const std::string name = "bcs[" + std::to_string(k) + "]";
-    if (bcs[k] == nullptr)
-      throw std::invalid_argument(name + " is null: give a DirichletBC");
-    const auto is_of = [&](const auto& w)
-    { return w->function_space()->contains(*bcs[k]->function_space()); };
-    if (std::ranges::none_of(functions, is_of))
-      throw std::invalid_argument(
-          name
-          + " is a condition on another function space than that of u: make "
-            "it with u's function space, or with a sub space of it");
-  }
-}
+void check_conditions(
+    const std::vector<std::shared_ptr<const DirichletBC>>& bcs,
+    const std::vector<std::shared_ptr<Function>>& functions);
 } // namespace input
 } // namespace contactx_dolfinx

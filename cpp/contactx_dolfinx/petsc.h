@@ -3,14 +3,10 @@
 
 #pragma once
 
-#include <dolfinx/la/petsc.h>
+#include <cstddef>
 #include <petscksp.h>
-#include <petscmat.h>
-#include <petscvec.h>
 #include <span>
-#include <stdexcept>
 #include <type_traits>
-#include <utility>
 
 namespace contactx_dolfinx::petsc
 {
@@ -20,11 +16,7 @@ static_assert(std::is_same_v<PetscScalar, double>,
 /// @brief Throw what PETSc says of an error.
 /// @param[in] error Return value of a function of PETSc.
 /// @param[in] function Its name.
-inline void check(PetscErrorCode error, const char* function)
-{
-  if (error != PETSC_SUCCESS)
-    dolfinx::la::petsc::error(error, __FILE__, function);
-}
+void check(PetscErrorCode error, const char* function);
 
 /// @brief Owner of an object of PETSc; all ranks must take part in its end.
 template <class T, PetscErrorCode (*destroy)(T*)>
@@ -53,32 +45,17 @@ private:
 
 using OwnVec = Owner<::Vec, VecDestroy>;
 using OwnMat = Owner<::Mat, MatDestroy>;
+using OwnKSP = Owner<::KSP, KSPDestroy>;
 
 /// @brief Solve by one LU factorisation, that of MUMPS where PETSc has it.
-inline void set_lu(::KSP ksp)
-{
-  check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
-  ::PC pc = nullptr;
-  check(KSPGetPC(ksp, &pc), "KSPGetPC");
-  check(PCSetType(pc, PCLU), "PCSetType");
-#ifdef PETSC_HAVE_MUMPS
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS),
-        "PCFactorSetMatSolverType");
-#endif
-}
+void set_lu(::KSP ksp);
 
 /// @brief A vector's values on this rank, for as long as this lives.
 class Values
 {
 public:
   /// @brief Look at the values, which may change.
-  explicit Values(::Vec x) : _x(x)
-  {
-    PetscInt size = 0;
-    check(VecGetLocalSize(x, &size), "VecGetLocalSize");
-    check(VecGetArray(x, &_values), "VecGetArray");
-    _size = size;
-  }
+  explicit Values(::Vec x);
   ~Values() { VecRestoreArray(_x, &_values); }
   Values(const Values&) = delete;
   Values& operator=(const Values&) = delete;
@@ -97,13 +74,7 @@ class ConstValues
 {
 public:
   /// @brief Look at the values.
-  explicit ConstValues(::Vec x) : _x(x)
-  {
-    PetscInt size = 0;
-    check(VecGetLocalSize(x, &size), "VecGetLocalSize");
-    check(VecGetArrayRead(x, &_values), "VecGetArrayRead");
-    _size = size;
-  }
+  explicit ConstValues(::Vec x);
   ~ConstValues() { VecRestoreArrayRead(_x, &_values); }
   ConstValues(const ConstValues&) = delete;
   ConstValues& operator=(const ConstValues&) = delete;

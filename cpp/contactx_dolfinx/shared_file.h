@@ -3,11 +3,14 @@
 
 #pragma once
 
-#include "ranks.h"
 #include <contactx/storage/archive.h>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
+#include <mpi.h>
+
+namespace contactx::mesh
+{
+class Ranks;
+}
 
 namespace contactx_dolfinx
 {
@@ -23,53 +26,20 @@ public:
   /// @param[in] mode MPI's mode.
   /// @throws std::runtime_error if MPI cannot.
   SharedFile(MPI_Comm comm, contactx::mesh::Ranks& ranks,
-             const std::filesystem::path& path, int mode)
-      : _ranks(&ranks)
-  {
-    require(MPI_File_open(comm, path.c_str(), mode, MPI_INFO_NULL, &_file));
-  }
+             const std::filesystem::path& path, int mode);
   ~SharedFile() override { MPI_File_close(&_file); }
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
-  std::int64_t size() override
-  {
-    MPI_Offset size = 0;
-    require(MPI_File_get_size(_file, &size));
-    return size;
-  }
-
-  void write(std::int64_t at, std::span<const std::byte> bytes) override
-  {
-    require(MPI_File_write_at_all(_file, at, bytes.data(),
-                                  static_cast<int>(bytes.size()), MPI_BYTE,
-                                  MPI_STATUS_IGNORE));
-  }
-
-  void read(std::int64_t at, std::span<std::byte> bytes) override
-  {
-    require(MPI_File_read_at_all(_file, at, bytes.data(),
-                                 static_cast<int>(bytes.size()), MPI_BYTE,
-                                 MPI_STATUS_IGNORE));
-  }
+  std::int64_t size() override;
+  void write(std::int64_t at, std::span<const std::byte> bytes) override;
+  void read(std::int64_t at, std::span<std::byte> bytes) override;
 
   /// @brief Bring to the disk what was written.
   void sync() { require(MPI_File_sync(_file)); }
 
 private:
-  void require(int code)
-  {
-    _ranks->agree(
-        [code]
-        {
-          if (code == MPI_SUCCESS)
-            return;
-          std::string text(MPI_MAX_ERROR_STRING, '\0');
-          int length = 0;
-          MPI_Error_string(code, text.data(), &length);
-          throw std::runtime_error(text.substr(0, length));
-        });
-  }
+  void require(int code);
 
   contactx::mesh::Ranks* _ranks;
   MPI_File _file = MPI_FILE_NULL;

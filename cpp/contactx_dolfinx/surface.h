@@ -3,15 +3,17 @@
 
 #pragma once
 
-#include "cells.h"
-#include "ranks.h"
-#include <contactx/mesh/straight.h>
+#include "input.h"
 #include <dolfinx/mesh/MeshTags.h>
-#include <dolfinx/mesh/Topology.h>
-#include <dolfinx/mesh/cell_types.h>
-#include <initializer_list>
-#include <stdexcept>
-#include <string>
+
+namespace contactx::geometry
+{
+struct Facets;
+}
+namespace contactx::mesh
+{
+class Ranks;
+}
 
 namespace contactx_dolfinx
 {
@@ -25,45 +27,7 @@ public:
   /// @throws std::invalid_argument if the tags are not of facets, or no facet
   /// of any rank has one of the values.
   Surface(std::shared_ptr<const dolfinx::mesh::MeshTags<std::int32_t>> tags,
-          std::vector<std::int32_t> values)
-      : _tags(std::move(tags)), _values(std::move(values))
-  {
-    const auto& topology = *_tags->topology();
-    if (_tags->dim() != topology.dim() - 1)
-      throw std::invalid_argument(
-          "a Surface needs tags of facets: pass those of dimension tdim - 1");
-    if (_values.empty())
-      throw std::invalid_argument("a Surface needs at least one tag: pass one");
-    const std::int32_t owned = topology.index_map(_tags->dim())->size_local();
-    std::vector<std::int64_t> there;
-    for (std::int32_t value : _values)
-    {
-      const std::vector<std::int32_t> facets = _tags->find(value);
-      there.push_back(std::ranges::count_if(facets, [owned](std::int32_t f)
-                                            { return f < owned; }));
-      _facets.insert(_facets.end(), facets.begin(), facets.end());
-    }
-    std::ranges::sort(_facets);
-    const auto repeated = std::ranges::unique(_facets);
-    _facets.erase(repeated.begin(), repeated.end());
-    Ranks ranks(topology.comm());
-    ranks.reduce(std::span<std::int64_t>(there),
-                 contactx::mesh::Reduction::sum);
-    std::int64_t count = 0;
-    for (std::size_t i = 0; i < _values.size(); ++i)
-    {
-      if (there[i] == 0)
-        throw std::invalid_argument(
-            "tag " + std::to_string(_values[i])
-            + " is not in the facet tags: give tags that "
-              "are there");
-      _name += (i > 0 ? ", " : "") + std::to_string(_values[i]);
-      count += there[i];
-    }
-    // As Python has it
-    _name = "Surface(tags=(" + _name + (_values.size() == 1 ? ",), " : "), ")
-            + std::to_string(count) + " facets)";
-  }
+          std::vector<std::int32_t> values);
 
   /// @brief Whether another surface is the same part of the same tags.
   bool is(const Surface& other) const
@@ -85,55 +49,11 @@ public:
   /// displacement has straight.
   contactx::geometry::Facets facet_nodes(const FunctionSpace& V,
                                          contactx::mesh::Ranks& ranks,
-                                         const std::string& role) const
-  {
-    auto topology = V.mesh()->topology_mutable();
-    const int tdim = topology->dim();
-    topology->create_connectivity(tdim - 1, tdim);
-    topology->create_connectivity(tdim, tdim - 1);
-    const auto cells = topology->connectivity(tdim - 1, tdim);
-    ranks.agree([&] { check(*topology, *cells); });
-
-    const auto facets = topology->connectivity(tdim, tdim - 1);
-    const std::int32_t num_owned = topology->index_map(tdim)->size_local();
-    std::vector<std::int32_t> of, local;
-    for (std::int32_t f : _facets)
-    {
-      const std::int32_t cell = cells->links(f)[0];
-      if (cell >= num_owned)
-        continue;
-      const auto own = facets->links(cell);
-      of.push_back(cell);
-      local.push_back(
-          static_cast<std::int32_t>(std::ranges::find(own, f) - own.begin()));
-    }
-    const contactx::mesh::Geometry geometry = geometry_of(*V.mesh());
-    contactx::mesh::check_straight(ranks, role + " " + _name, cells_of(V),
-                                   geometry, points_of_cell(*V.mesh()), of,
-                                   local);
-    return contactx::mesh::facets(cells_of(V), of, local, geometry);
-  }
+                                         const std::string& role) const;
 
 private:
   void check(const dolfinx::mesh::Topology& topology,
-             const dolfinx::graph::AdjacencyList<std::int32_t>& cells) const
-  {
-    if (_tags->topology().get() != &topology)
-      throw std::invalid_argument("the facet tags of " + _name
-                                  + " belong to another mesh than the "
-                                    "displacement: make them on its mesh");
-    std::vector<std::int32_t> between;
-    // The cell on the other side may be on another rank
-    if (dolfinx::MPI::size(topology.comm()) > 1)
-      between = topology.interprocess_facets();
-    std::ranges::sort(between);
-    for (std::int32_t f : _facets)
-      if (cells.num_links(f) != 1 or std::ranges::binary_search(between, f))
-        throw std::invalid_argument(
-            _name
-            + " has facets inside a body, with a cell on either side: a "
-              "contact surface must be part of the boundary");
-  }
+             const dolfinx::graph::AdjacencyList<std::int32_t>& cells) const;
 
   std::shared_ptr<const dolfinx::mesh::MeshTags<std::int32_t>> _tags;
   std::vector<std::int32_t> _values, _facets;

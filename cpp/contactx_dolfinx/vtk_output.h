@@ -5,11 +5,12 @@
 
 #include "functions.h"
 #include "ranks.h"
-#include <dolfinx/io/VTKFile.h>
 #include <filesystem>
-#include <optional>
-#include <petscsystypes.h>
-#include <stdexcept>
+
+namespace dolfinx::io
+{
+class VTKFile;
+}
 
 namespace contactx_dolfinx
 {
@@ -27,35 +28,13 @@ public:
   /// @param[in] path The file, ending in `.pvd`, in a folder that is there.
   /// @throws std::invalid_argument if it ends in something else.
   /// @throws std::runtime_error on all ranks if an older one cannot be removed.
-  VTKOutput(MPI_Comm comm, const std::filesystem::path& path)
-      : _ranks(comm), _path(std::filesystem::absolute(path)), _beside(_path)
-  {
-    if (_path.extension() != ".pvd")
-      throw std::invalid_argument("the path of VTKOutput is " + path.string()
-                                  + ": give a name that ends in .pvd");
-    // Its stem gives the names of the data
-    _beside += "~";
-    _ranks.agree(
-        [&]
-        {
-          if (_ranks.rank() == 0)
-            std::filesystem::remove(_path);
-        });
-    _file.emplace(comm, _beside, "w");
-  }
+  VTKOutput(MPI_Comm comm, const std::filesystem::path& path);
 
   VTKOutput(const VTKOutput&) = delete;
   VTKOutput& operator=(const VTKOutput&) = delete;
 
   /// @brief Close the file.
-  ~VTKOutput()
-  {
-    // DOLFINx writes once more
-    _file.reset();
-    std::error_code ignored;
-    if (_ranks.rank() == 0)
-      std::filesystem::remove(_beside, ignored);
-  }
+  ~VTKOutput();
 
   /// @brief Write functions.
   /// @param[in] functions The functions, as `Functions::all` has them.
@@ -64,25 +43,11 @@ public:
   /// written.
   void
   write(const std::vector<std::reference_wrapper<const Function>>& functions,
-        double t)
-  {
-    _file->write<PetscScalar>(functions, t);
-    // Once the files of all ranks are there
-    _ranks.agree([] {});
-    _ranks.agree(
-        [&]
-        {
-          if (_ranks.rank() != 0)
-            return;
-          // This writes the collection, and the file stays open
-          _file->close();
-          std::filesystem::rename(_beside, _path);
-        });
-  }
+        double t);
 
 private:
   Ranks _ranks;
   std::filesystem::path _path, _beside;
-  std::optional<dolfinx::io::VTKFile> _file;
+  std::unique_ptr<dolfinx::io::VTKFile> _file;
 };
 } // namespace contactx_dolfinx

@@ -16,6 +16,7 @@
 #include <dolfinx.h>
 #include <dolfinx/fem/Constant.h>
 #include <dolfinx/mesh/generation.h>
+#include <fstream>
 #include <numeric>
 
 using namespace dolfinx;

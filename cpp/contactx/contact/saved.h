@@ -63,7 +63,7 @@ inline std::vector<double> values_of_size(const std::vector<Saved>& saved,
                                           const char* name, std::size_t rows,
                                           int width)
 {
-  const auto& values = values_of<double>(saved, name);
+  std::vector<double> values = values_of<double>(saved, name);
   check::rows(values.size(), rows, width, name);
   return values;
 }
