@@ -23,7 +23,9 @@ public:
     ++releases;
     is_frozen = stays;
   }
-  contact::HiddenGap deepest_frozen_pair(std::span<const double>) const override
+  contact::HiddenGap
+  deepest_frozen_pair(std::span<const double>,
+                      std::span<const std::int8_t>) const override
   {
     return is_frozen ? contact::HiddenGap{-1e-3, -0.1} : contact::HiddenGap();
   }

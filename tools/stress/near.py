@@ -23,6 +23,11 @@ from stress.faces import Array, Numbers
 _BESIDE, _KEPT, _HIDDEN = 0.06, 3.0, 0.04
 # How far off facets are in front of points, in sizes of the larger facets
 _FRONT = 1.0
+# Part of the largest cosine by which facets there oppose a facet of the slave, from which on others
+# count, too
+_OPPOSED = 0.4
+# Part of a normal at a corner that rounding of what touches there may add
+_TILT = 1e-6
 # Rounding of local coordinates
 _EPS = 1e-9
 # Steps of differences, in sizes of the slave's facets: of first ones, so short that curvature may
@@ -273,8 +278,24 @@ class Measure:
         if mean:
             # The nearest facet along a point's way
             order = np.lexsort((np.abs(near.gap), near.point))
-            return near[order[np.unique(near.point[order], return_index=True)[1]]]
-        return near if finite or k > 2 else self._with_vertices(near, x)
+            return self._facing(
+                near[order[np.unique(near.point[order], return_index=True)[1]]], len(x)
+            )
+        if k > 2:
+            return near
+        return self._with_corners(near, points, x) if finite else self._with_vertices(near, x)
+
+    def _facing(self, near: Near, n: int) -> Near:
+        """Without what opposes a facet far less than the best there and beside it.
+
+        Behind an edge of the master are its sides, far off.
+        """
+        facet = self.facet[near.point]
+        against = -(near.normal * self.own[near.point]).sum(axis=1)
+        best = np.zeros(n)
+        np.maximum.at(best, self._slave[facet], against[:, None])
+        around = best[self._slave].max(axis=1)
+        return near[(against >= _OPPOSED * around[facet]) | self.edge[facet]]
 
     def _ways(self, points: Array, corners: Array, point: Numbers, facet: Numbers) -> Array:
         """Directions along which points of facets are measured.
@@ -312,8 +333,45 @@ class Measure:
         more.weights = np.eye(2)[end]
         vertex = self._master[more.facet, end]
         more.normal = normal[vertex] / np.linalg.norm(normal[vertex], axis=1, keepdims=True)
-        both = ([getattr(n, field.name) for n in (near, more)] for field in fields(near))
-        return Near(*(np.concatenate(pair) for pair in both))
+        return _joined(near, more)
+
+    def _with_corners(self, near: Near, points: Array, x: Array) -> Near:
+        """Beside a corner of segments a node may be measured along any normal in its cone.
+
+        One that touches so has a normal across the way to the corner.
+        """
+        assert self._master is not None
+        corners = x[self._master]
+        outward = faces.normals(corners, faces.middles(corners))
+        at: dict[int, list[int]] = {}
+        for facet, ends in enumerate(self._master.tolist()):
+            for end in ends:
+                at.setdefault(end, []).append(facet)
+        rows, normals, weights, on = [], [], [], []
+        for row in np.flatnonzero(np.abs(near.beyond) <= _BESIDE):
+            facet = near.facet[row]
+            end = near.weights[row].argmax()
+            vertex = self._master[facet, end]
+            way = points[near.point[row]] - x[vertex]
+            beside = float(np.linalg.norm(way))
+            if len(at[vertex]) < 2 or not 0 < beside <= _BESIDE * faces.sizes(corners[[facet]])[0]:
+                continue
+            across = np.array([-way[1], way[0]]) / beside
+            across *= np.sign(across @ outward[at[vertex]].sum(axis=0))
+            if (np.linalg.solve(outward[at[vertex]].T, across) >= -_TILT).all():
+                # On the corner itself, or on the facet that it is nearest to the front of
+                other = max(at[vertex], key=lambda f: float(across @ outward[f]))
+                xi = faces.project(points[[near.point[row]]], corners[[other]])
+                rows += [row, row]
+                normals += [across, across]
+                on += [facet, other]
+                weights += [np.eye(2)[end], faces.shapes(xi, 2)[0][0]]
+        if not rows:
+            return near
+        more = near[np.array(rows)]
+        more.facet, more.weights, more.normal = np.array(on), np.array(weights), np.array(normals)
+        more.gap = np.zeros(len(rows)) - self._contact.offset()
+        return _joined(near, more)
 
     def _slipped(self, near: Near, x: Array, start: Array) -> None:
         """Find the gap at the start of the step, and slip since then.
@@ -373,6 +431,12 @@ class Measure:
             near.beyond,
             near.hidden,
         )
+
+
+def _joined(near: Near, more: Near) -> Near:
+    """The rows of both."""
+    both = ([getattr(n, field.name) for n in (near, more)] for field in fields(near))
+    return Near(*(np.concatenate(pair) for pair in both))
 
 
 def _slope(value: Callable[[Array], Array], x: Array, step: float) -> Array:

@@ -7,6 +7,7 @@ A scene that ends the process, or hangs, is lost alone: whoever asked goes on wi
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import sys
@@ -30,6 +31,8 @@ def main() -> None:
     scenes = all_scenes()
     for line in sys.stdin:
         print(json.dumps(run(scenes[int(line)]).row()), file=answers, flush=True)
+        # Communicators are few, and go with meshes, which are in cycles
+        gc.collect()
 
 
 if __name__ == "__main__":

@@ -193,7 +193,12 @@ public:
   virtual void reset_flips() {}
 
   /// @brief Smallest gap that this rank's frozen pairs hide; collective.
-  virtual HiddenGap deepest_frozen_pair(std::span<const double> /*x*/) const
+  /// @param[in] x Positions of all nodes.
+  /// @param[in] closed Whether slave nodes are in contact: a gap in front of
+  /// one counts as a penetration (shape=(n)).
+  virtual HiddenGap
+  deepest_frozen_pair(std::span<const double> /*x*/,
+                      std::span<const std::int8_t> /*closed*/) const
   {
     return {};
   }

@@ -525,7 +525,9 @@ std::vector<std::int32_t> NodeToSurface::frozen_pairs() const
   return _pairing.frozen();
 }
 
-HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
+HiddenGap
+NodeToSurface::deepest_frozen_pair(std::span<const double> x,
+                                   std::span<const std::int8_t> closed) const
 {
   const int g = gdim();
   const std::vector<std::int32_t> frozen = _pairing.frozen();
@@ -548,9 +550,11 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
   const geometry::FacetList facets = _surface->facets();
   for (std::size_t i = 0; i < frozen.size(); ++i)
   {
-    // Less is round-off
-    if (found.facet[i] < 0
-        or not(found.gap[i] < -math::solved_length_tol * _options.reach))
+    // A closed node beside its facet may be as far before the surface. Less is
+    // round-off
+    const double gap = found.facet[i] < 0 ? 0 : found.gap[i],
+                 hidden = closed[frozen[i]] ? -std::abs(gap) : gap;
+    if (not(hidden < -math::solved_length_tol * _options.reach))
       continue;
     const auto ends = facets[found.facet[i]];
     double square = 0;
@@ -560,8 +564,8 @@ HiddenGap NodeToSurface::deepest_frozen_pair(std::span<const double> x) const
                        - at->x[std::size_t(ends.front()) * g + k];
       square += d * d;
     }
-    deepest.gap = std::min(deepest.gap, found.gap[i]);
-    deepest.part = std::min(deepest.part, found.gap[i] / std::sqrt(square));
+    deepest.gap = std::min(deepest.gap, hidden);
+    deepest.part = std::min(deepest.part, hidden / std::sqrt(square));
   }
   return deepest;
 }

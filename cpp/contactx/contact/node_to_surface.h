@@ -51,7 +51,9 @@ public:
   double distance(std::span<const double> x) const override;
   std::vector<std::int32_t> frozen_pairs() const override;
   void reset_flips() override { _pairing.begin_step(); }
-  HiddenGap deepest_frozen_pair(std::span<const double> x) const override;
+  HiddenGap
+  deepest_frozen_pair(std::span<const double> x,
+                      std::span<const std::int8_t> closed) const override;
   std::vector<double> rise() const override { return _places.rise; }
 
 protected:

@@ -317,7 +317,8 @@ bool ActiveSet::hide_penetration()
   const auto now = _halo->now();
   std::vector<contact::HiddenGap> found;
   for (const auto& c : _contacts)
-    found.push_back(c->master()->deepest_frozen_pair(now->x));
+    found.push_back(
+        c->master()->deepest_frozen_pair(now->x, c->nodes()->status));
   return _frozen.hide_penetration(_halo->ranks(), found);
 }
 

@@ -19,7 +19,8 @@ from tether import environment, tethered
 # that a judge may take for wrong: a node beside the master by 5.7 % of its facet, a stiff slave
 # whose forces are rounding, rough quadrilaterals that are no edge, a node that was apart by 1e-9,
 # and slip that forces of 1e-6 undo. Facets that are far apart at first, along directions that are
-# no normals of theirs
+# no normals of theirs; a frozen pair whose node has left its facet; nodes beside a corner of the
+# master, and sides of it behind one
 _HARD = (
     "past one another, way in heights: 0.1, tip:tip, 0.1, whole, n2s, 1, False",
     "past one another, way in heights: 0.6, tip:tip, 0.1, whole, n2s, 3, True",
@@ -28,6 +29,9 @@ _HARD = (
     "pressed and let go, units: 1000:1e+06, 0.3, svk, s2s, 2, False",
     "arch under a disc, depth in heights: 2, 0.3, arch is the slave, linear, n2s, 1, True",
     "where peers fail: friction 0.3, 0.2 in one step, s2s, small, condensed, 0.02",
+    "roller at large strains, depth in radii: 1, alike, neo-hooke, True, n2s, mu 0, 8, True",
+    "past one another, way in heights: 0.6, plate:plate, 0.4, whole, n2s, 1, True",
+    "past one another, way in heights: 0.3, block:block, 0.1, whole, s2s, 3, False",
     *(f"all at random: {i}" for i in ("12, 6", "7, 6", "4, 15", "0, 6", "4, 4")),
 )
 # A thousand steps take a minute
