@@ -116,7 +116,7 @@ def _refused(scene: Scene, text: str) -> Kind:
         if re.search(words, text) and helps():
             return Kind.RIGHTLY
     case = scene.make()
-    if case.swapped and re.search(SWAP, text) and rightly(case.swapped()):
+    if case.swapped and re.search(SWAP, text) and rightly(replace(case.swapped(), swapped=None)):
         return Kind.RIGHTLY
     if not case.cut and "smaller load steps" in text and rightly(replace(case, cut=True)):
         return Kind.RIGHTLY
