@@ -25,7 +25,7 @@ _BESIDE, _KEPT, _HIDDEN = 0.06, 3.0, 0.04
 _FRONT = 1.0
 # Part of the largest cosine by which facets there oppose a facet of the slave, from which on others
 # count, too
-_OPPOSED = 0.4
+_OPPOSED = 0.3
 # Part of a normal at a corner that rounding of what touches there may add
 _TILT = 1e-6
 # Rounding of local coordinates
@@ -354,7 +354,9 @@ class Measure:
             vertex = self._master[facet, end]
             way = points[near.point[row]] - x[vertex]
             beside = float(np.linalg.norm(way))
-            if len(at[vertex]) < 2 or not 0 < beside <= _BESIDE * faces.sizes(corners[[facet]])[0]:
+            if len(at[vertex]) != 2 or not 0 < beside <= _BESIDE * faces.sizes(corners[[facet]])[0]:
+                continue
+            if abs(np.linalg.det(outward[at[vertex]])) < _TILT:  # Flat: there is no corner
                 continue
             across = np.array([-way[1], way[0]]) / beside
             across *= np.sign(across @ outward[at[vertex]].sum(axis=0))

@@ -81,6 +81,8 @@ def run(scene: Scene) -> Outcome:
             # Without the table of iterations
             refusal = getattr(error, "reason", "") or str(error)
             outcome.reason = f"{type(error).__name__}: {refusal}"
+            if isinstance(error, np.linalg.LinAlgError):  # A ValueError that the judge raises
+                outcome.reason, refusal = f"{outcome.reason}\n{traceback.format_exc()}", ""
         except Exception as error:
             outcome.reason = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
         outcome.seconds = time.process_time() - begin
