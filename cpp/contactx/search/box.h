@@ -55,5 +55,26 @@ struct Box
     }
     return d2;
   }
+
+  /// @brief Squared distance of the farthest corner from `p`.
+  constexpr double farthest2(const Vector<3>& p) const
+  {
+    double d2 = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double d = std::max(p[k] - lower[k], upper[k] - p[k]);
+      d2 += d * d;
+    }
+    return d2;
+  }
+
+  /// @brief Largest height over the plane through `p` across `normal`.
+  constexpr double height(const Vector<3>& p, const Vector<3>& normal) const
+  {
+    double most = 0;
+    for (int k = 0; k < 3; ++k)
+      most += normal[k] * ((normal[k] > 0 ? upper : lower)[k] - p[k]);
+    return most;
+  }
 };
 } // namespace contactx::search

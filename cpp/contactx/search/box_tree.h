@@ -57,8 +57,11 @@ public:
   /// @param[in] p Point.
   /// @param[in,out] bound2 Squared bound. `visit` may lower it.
   /// @param[in] visit Called as visit(item).
-  template <class Visitor>
-  void nearest(const Vector<3>& p, double& bound2, Visitor&& visit) const
+  /// @param[in] matters Called as matters(box), of an item or of several that
+  /// are passed over where it is false.
+  template <class Visitor, class Predicate>
+  void nearest(const Vector<3>& p, double& bound2, Visitor&& visit,
+               Predicate&& matters) const
   {
     struct Entry
     {
@@ -79,7 +82,7 @@ public:
       if (node.right < 0)
       {
         for (std::int32_t i = node.begin; i < node.end; ++i)
-          if (_boxes[i].distance2(p) <= bound2)
+          if (_boxes[i].distance2(p) <= bound2 and matters(_boxes[i]))
             visit(_items[i]);
         continue;
       }
@@ -87,11 +90,17 @@ public:
       Entry b{node.right, _nodes[node.right].box.distance2(p)};
       if (a.d2 < b.d2)
         std::swap(a, b);
-      if (a.d2 <= bound2)
-        stack[top++] = a;
-      if (b.d2 <= bound2)
-        stack[top++] = b;
+      for (const Entry& child : {a, b})
+        if (child.d2 <= bound2 and matters(_nodes[child.node].box))
+          stack[top++] = child;
     }
+  }
+
+  /// @brief The same for all boxes.
+  template <class Visitor>
+  void nearest(const Vector<3>& p, double& bound2, Visitor&& visit) const
+  {
+    nearest(p, bound2, visit, [](const Box&) { return true; });
   }
 
   /// @brief Visit the items whose box may matter.

@@ -41,11 +41,12 @@ void Finder::refit(std::span<const double> x)
 
 FoundPlace Finder::find(std::span<const double> x, const Vector<3>& p,
                         const Vector<3>& normal, double reach,
-                        std::int32_t hint, const Accepts& accepts) const
+                        std::int32_t hint, const Accepts& accepts,
+                        const View& view) const
 {
   FoundPlace found;
-  found.nearest
-      = nearest_facet(_surface, *_tree, x, p, normal, reach, hint, accepts);
+  found.nearest = nearest_facet(_surface, *_tree, x, p, normal, reach, hint,
+                                accepts, view);
   if (found.nearest)
     found.selected = select(_surface, x, p, *found.nearest);
   if (found.selected and found.selected->feature == geometry::interior)

@@ -72,9 +72,10 @@ public:
   /// @param[in] reach Largest distance.
   /// @param[in] hint A facet that may be near, -1 for none.
   /// @param[in] accepts Facets that it refuses are passed over; empty for none.
+  /// @param[in] view Where all are that it does not refuse.
   FoundPlace find(std::span<const double> x, const Vector<3>& p,
                   const Vector<3>& normal, double reach, std::int32_t hint = -1,
-                  const Accepts& accepts = {}) const;
+                  const Accepts& accepts = {}, const View& view = {}) const;
 
   /// @brief Search for points.
   /// @param[in] x Node coordinates of the last `refit`.

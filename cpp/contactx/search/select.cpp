@@ -6,6 +6,7 @@
 #include "../geometry/ridge.h"
 #include "../geometry/shape.h"
 #include "../math/scales.h"
+#include <cmath>
 
 using namespace contactx;
 using namespace contactx::search;
@@ -87,11 +88,24 @@ std::optional<Projection> beyond_edge(const Surface& surface,
 }
 } // namespace
 
-std::optional<Projection>
-contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
-                                std::span<const double> x, const Vector<3>& p,
-                                const Vector<3>& normal, double reach,
-                                std::int32_t hint, const Accepts& accepts)
+bool View::has(const Box& box, const Vector<3>& p,
+               const Vector<3>& normal) const
+{
+  if (box.distance2(p) <= near * near)
+    return true;
+  double behind = 2 * moved;
+  for (int k = 0; k < 3; ++k)
+    behind += level * (box.upper[k] - box.lower[k]);
+  const double height = box.height(p, normal);
+  return height >= -behind
+         or height
+                >= -behind - turned * (std::sqrt(box.farthest2(p)) + 2 * moved);
+}
+
+std::optional<Projection> contactx::search::nearest_facet(
+    const Surface& surface, const BoxTree& tree, std::span<const double> x,
+    const Vector<3>& p, const Vector<3>& normal, double reach,
+    std::int32_t hint, const Accepts& accepts, const View& view)
 {
   std::optional<Projection> best;
   double best_d = reach, bound2 = reach * reach;
@@ -116,7 +130,8 @@ contactx::search::nearest_facet(const Surface& surface, const BoxTree& tree,
   };
   if (hint >= 0)
     visit(hint);
-  tree.nearest(p, bound2, visit);
+  tree.nearest(p, bound2, visit,
+               [&](const Box& box) { return any or view.has(box, p, normal); });
   return best;
 }
 

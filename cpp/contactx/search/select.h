@@ -6,11 +6,32 @@
 #include "box_tree.h"
 #include "surface.h"
 #include <functional>
+#include <limits>
 
 namespace contactx::search
 {
 /// @brief Decides if a closest point of a facet may be taken.
 using Accepts = std::function<bool(const Projection&)>;
+
+/// @brief Where facets are that a point may see: in front of it, near it, or
+/// where motions may have taken what was in front of it.
+struct View
+{
+  /// Distance up to which it sees behind itself, length
+  double near = std::numeric_limits<double>::infinity();
+  /// How far any point has moved since it had others in front of it, length
+  double moved = 0;
+  /// Change of its unit normal since then
+  double turned = 0;
+  /// How far behind it, over a facet's size, it still has one in front of it
+  double level = 0;
+
+  /// @brief True if a facet in a box may be seen.
+  /// @param[in] box The box.
+  /// @param[in] p The point.
+  /// @param[in] normal Its outward unit normal.
+  bool has(const Box& box, const Vector<3>& p, const Vector<3>& normal) const;
+};
 
 /// @brief Closest facet of a master surface that faces a point.
 /// @param[in] surface Master surface.
@@ -23,12 +44,13 @@ using Accepts = std::function<bool(const Projection&)>;
 /// @param[in] hint A facet that may be near, -1 for none: the search is faster,
 /// its result the same.
 /// @param[in] accepts Facets that it refuses are passed over; empty for none.
+/// @param[in] view Where all are that it does not refuse.
 /// @return The closest point of that facet, nothing where none is in reach.
 std::optional<Projection>
 nearest_facet(const Surface& surface, const BoxTree& tree,
               std::span<const double> x, const Vector<3>& p,
               const Vector<3>& normal, double reach, std::int32_t hint = -1,
-              const Accepts& accepts = {});
+              const Accepts& accepts = {}, const View& view = {});
 
 /// @brief The projection that contact is measured with.
 ///

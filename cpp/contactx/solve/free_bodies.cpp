@@ -7,9 +7,10 @@
 #include "../math/scales.h"
 #include "../math/vec.h"
 #include "held_motions.h"
+#include "motion_fields.h"
 #include "rigid_modes.h"
 #include "springs.h"
-#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,38 +76,6 @@ std::vector<Eigen::Index> first_columns(const std::vector<MatrixXd>& bases)
   return first;
 }
 
-/// Combination of motions with so much work, by their symmetric matrix.
-/// @throws std::domain_error if the motions are not independent.
-VectorXd combined(const MatrixXd& gram, const VectorXd& work)
-{
-  const Eigen::LLT<MatrixXd> factors(gram);
-  if (factors.info() != Eigen::Success)
-    throw std::domain_error("rigid motions of the bodies are not independent");
-  return factors.solve(work);
-}
-
-/// Part of displacements that is a combination of motions; collective.
-/// @param[in] motions Displacements by each at owned dofs (shape=(k, n)).
-/// @param[in] u Displacements, those of owned dofs first (shape=(>= n)).
-/// @return How much of each (shape=(k)).
-VectorXd part_of(mesh::Ranks& ranks, const MatrixXd& motions,
-                 std::span<const double> u)
-{
-  // The last column is the work of the displacements
-  const Eigen::Index k = motions.rows();
-  MatrixXd sums = MatrixXd::Zero(k, k + 1);
-  for (Eigen::Index i = 0; i < motions.cols(); ++i)
-  {
-    // A body moves by its own modes, of those of many
-    for (Eigen::Index p = 0; p < k; ++p)
-      if (const double by_mode = motions(p, i); by_mode != 0)
-        sums.col(p) += by_mode * motions.col(i);
-    sums.col(k) += u[i] * motions.col(i);
-  }
-  if (ranks.size() > 1)
-    ranks.reduce(std::span(sums.data(), sums.size()), Reduction::sum);
-  return combined(sums.leftCols(k), sums.col(k));
-}
 } // namespace
 
 /// Slave nodes of a contact that have a pair.
@@ -185,15 +154,9 @@ struct FreeBodies::Motions
   Eigen::Index num_free = 0; ///< that nothing resists, the first ones
 };
 
-/// Motions in rows (shape=(number of motions, num_owned * gdim)).
-struct FreeBodies::Field
-{
-  MatrixXd values;
-};
-
 struct FreeBodies::Neutral
 {
-  Field field;
+  MotionFields fields;
   MatrixXd slips;           ///< of closed nodes, by each motion
   std::vector<double> size; ///< of the facets around each closed node
 };
@@ -206,10 +169,9 @@ struct FreeBodies::Room
   std::vector<std::vector<std::int32_t>> pressed;
 };
 
-/// Motions in rows.
 struct FreeBodies::Loose
 {
-  MatrixXd motions;
+  MotionFields motions;
   std::vector<double> before;
 };
 
@@ -477,44 +439,91 @@ FreeBodies::LooseBodies FreeBodies::loose() const
   return {std::ranges::count(_is_loose, 1), std::move(sums)};
 }
 
-FreeBodies::Field FreeBodies::displacements(const Motions& motions,
-                                            std::span<const double> x) const
+/// Displacements by motions, in parts of bodies that some motions move
+/// together.
+MotionFields FreeBodies::displacements(const Motions& motions,
+                                       std::span<const double> x) const
 {
   const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
-  const std::size_t n = _bodies->map().num_owned();
-  const auto body = _modes->body();
   const MatrixXd& N = motions.N;
-  MatrixXd field(N.cols(), n * g);
+  // First body that each motion moves
+  std::vector<std::int32_t> joined, moved(N.cols(), -1);
+  for (Eigen::Index k = 0; k < N.cols(); ++k)
+    for (std::size_t b = 0; b < _modes->count(); ++b)
+      if ((N.col(k).segment(b * m, m).array() != 0).any())
+      {
+        const auto body = static_cast<std::int32_t>(b);
+        moved[k] = moved[k] < 0 ? body : moved[k];
+        joined.insert(joined.end(), {moved[k], body});
+      }
+  const std::vector<std::int32_t> group = mesh::connected_parts(
+      joined, 2, static_cast<std::int32_t>(_modes->count()));
+  std::vector<MotionFields::Part> parts(_modes->count());
+  for (Eigen::Index k = 0; k < N.cols(); ++k)
+    parts[group[moved[k]]].motions.push_back(k);
+  const auto body = _modes->body().first(_bodies->map().num_owned());
+  for (std::size_t i = 0; i < g * body.size(); ++i)
+    if (MotionFields::Part& part = parts[group[body[i / g]]];
+        not part.motions.empty())
+      part.dofs.push_back(static_cast<Eigen::Index>(i));
+  std::erase_if(parts, [](const MotionFields::Part& part)
+                { return part.motions.empty(); });
   std::array<double, 18> modes;
-  for (std::size_t i = 0; i < n; ++i)
+  for (MotionFields::Part& some : parts)
   {
-    _modes->at(static_cast<std::int32_t>(i), x, modes.data());
-    field.middleCols(i * g, g)
-        = N.middleRows(body[i] * m, m).transpose()
-          * Eigen::Map<const MatrixXd>(modes.data(), m, g);
+    some.by.resize(some.motions.size(), some.dofs.size());
+    const MatrixXd by_modes = N(Eigen::all, some.motions).transpose();
+    for (std::size_t i = 0; i < some.dofs.size(); i += g)
+    {
+      const auto node = static_cast<std::int32_t>(some.dofs[i] / g);
+      _modes->at(node, x, modes.data());
+      some.by.middleCols(i, g)
+          = by_modes.middleCols(body[node] * m, m)
+            * Eigen::Map<const MatrixXd>(modes.data(), m, g);
+    }
   }
-  return {std::move(field)};
+  return {ranks(), std::move(parts)};
 }
 
-std::vector<double> FreeBodies::springs_of(const Field& field) const
+std::vector<double> FreeBodies::springs_of(const MotionFields& fields) const
 {
-  return independent_springs(ranks(), field.values, _bulk->markers(),
-                             _bulk->diagonal(), _original, _modes->gdim());
+  const std::size_t g = _modes->gdim();
+  const auto markers = _bulk->markers();
+  const auto diagonal = _bulk->diagonal();
+  std::vector<double> springs(diagonal.size());
+  for (const MotionFields::Part& part : fields.parts())
+  {
+    std::vector<std::int8_t> prescribed;
+    std::vector<double> stiffness;
+    std::vector<std::int64_t> original;
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+    {
+      prescribed.push_back(markers[part.dofs[i]]);
+      stiffness.push_back(diagonal[part.dofs[i]]);
+      if (i % g == 0)
+        original.push_back(_original[part.dofs[i] / g]);
+    }
+    const std::vector<double> of_part = independent_springs(
+        ranks(), part.by, prescribed, stiffness, original, static_cast<int>(g));
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      springs[part.dofs[i]] = of_part[i];
+  }
+  return springs;
 }
 
 void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
                              std::span<const double> pull,
                              std::span<const double> forces)
 {
-  Field field = displacements(motions, x);
-  _springs = springs_of(field);
+  MotionFields fields = displacements(motions, x);
+  _springs = springs_of(fields);
   const double size
       = std::sqrt(mesh::total(ranks(), math::column(forces).squaredNorm()));
   const bool idle = (motions.N.transpose() * math::column(pull)).norm()
                     <= idle_force_max * size;
   // Friction resists motions across the slip
   if (idle and not has_friction())
-    keep_in_place(std::move(field));
+    keep_in_place(std::move(fields));
   // Weak, so that they do not slow down convergence along modes with a small
   // stiffness, as of friction that turns
   for (double& spring : *_springs)
@@ -522,15 +531,12 @@ void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
 }
 
 /// Remembers where bodies are, to take off what they drift by.
-void FreeBodies::keep_in_place(Field field)
+void FreeBodies::keep_in_place(MotionFields fields)
 {
-  const auto markers = _bulk->markers();
-  for (Eigen::Index i = 0; i < field.values.cols(); ++i)
-    if (markers[i] != 0)
-      field.values.col(i).setZero();
+  fields.fix(_bulk->markers());
   const auto u = _bulk->displacements();
-  _loose = std::make_unique<Loose>(
-      Loose{std::move(field.values), {u.begin(), u.end()}});
+  _loose
+      = std::make_unique<Loose>(Loose{std::move(fields), {u.begin(), u.end()}});
 }
 
 /// Finds the motions that nothing but corners between facets resists, if the
@@ -581,8 +587,8 @@ bool FreeBodies::runs_along(std::span<const double> dx) const
 {
   if (not _neutral or _is_holding)
     return false;
-  const Eigen::Index k = _neutral->field.values.rows();
-  const VectorXd motion = part_of(ranks(), _neutral->field.values, dx);
+  const Eigen::Index k = _neutral->fields.size();
+  const VectorXd motion = _neutral->fields.part_of(dx);
   bool is_far = false;
   for (std::size_t i = 0; i < _neutral->size.size(); ++i)
     is_far = is_far
@@ -595,9 +601,9 @@ bool FreeBodies::runs_along(std::span<const double> dx) const
 void FreeBodies::hold()
 {
   _is_holding = true;
-  _free_modes = _neutral->field.values.rows();
-  _springs = springs_of(_neutral->field);
-  keep_in_place(_neutral->field);
+  _free_modes = _neutral->fields.size();
+  _springs = springs_of(_neutral->fields);
+  keep_in_place(_neutral->fields);
   _held = std::make_shared<HeldMotions>(ranks(), _loose->motions, *_springs);
 }
 
@@ -719,9 +725,8 @@ std::optional<std::vector<double>> FreeBodies::drift()
 {
   if (not _loose)
     return std::nullopt;
-  const MatrixXd& motions = _loose->motions;
-  const std::size_t n = motions.cols();
   const auto now = _bulk->displacements();
+  const std::size_t n = _bodies->map().num_owned() * _modes->gdim();
   ranks().agree(
       [&]
       {
@@ -732,10 +737,7 @@ std::optional<std::vector<double>> FreeBodies::drift()
   std::vector<double> step(n);
   for (std::size_t i = 0; i < n; ++i)
     step[i] = now[i] - _loose->before[i];
-  std::vector<double> movement(n);
-  VectorXd::Map(movement.data(), n)
-      = motions.transpose() * part_of(ranks(), motions, step);
-  return movement;
+  return _loose->motions.displacements(_loose->motions.part_of(step), n);
 }
 
 double FreeBodies::turned() const
@@ -886,7 +888,9 @@ FreeBodies::Room FreeBodies::room(const std::vector<Rows>& rows,
       ranks().reduce(std::span(gram.data(), gram.size()), Reduction::sum);
     const double most = std::max(gram.diagonal().maxCoeff(), 1.0);
     gram.diagonal().array() += corner_resistance * most;
-    motion = gram.leftCols(count).ldlt().solve(gram.col(count));
+    const Eigen::SparseMatrix<double> near = gram.leftCols(count).sparseView();
+    motion = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(near).solve(
+        gram.col(count));
   }
   room.depth = mesh::largest(ranks(), room.depth);
   room.motion = by_body(bases) * motion;
@@ -1008,20 +1012,53 @@ FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
   }
   if (ranks().size() > 1)
     ranks().reduce(std::span(gram.data(), gram.size()), Reduction::sum);
-  const auto found = math::symmetric_eigen(gram);
-  const VectorXd& values = found.eigenvalues();
-  const double most = std::max(values[count - 1], 1.0);
-  const Eigen::Index none
-      = (values.array() <= corner_resistance * most).count();
-  Motions motions{MatrixXd(bases.size() * _modes->modes_per_body(), none),
-                  (values.array() <= no_resistance * most).count()};
+  // Bodies that no closed node joins move by themselves
+  std::vector<std::int32_t> owner(count), joined;
   for (std::size_t b = 0; b < bases.size(); ++b)
-    motions.N.middleRows(b * bases[b].rows(), bases[b].rows())
-        = bases[b]
-          * found.eigenvectors()
-                .middleRows(first[b], bases[b].cols())
-                .leftCols(none);
-  return motions;
+    std::fill(owner.begin() + first[b], owner.begin() + first[b + 1],
+              static_cast<std::int32_t>(b));
+  for (Eigen::Index q = 0; q < count; ++q)
+    for (Eigen::Index p = 0; p < q; ++p)
+      if (gram(p, q) != 0)
+        joined.insert(joined.end(), {owner[p], owner[q]});
+  const std::vector<std::int32_t> part = mesh::connected_parts(
+      joined, 2, static_cast<std::int32_t>(bases.size()));
+  std::vector<std::vector<Eigen::Index>> columns(bases.size());
+  for (Eigen::Index p = 0; p < count; ++p)
+    columns[part[owner[p]]].push_back(p);
+  std::erase_if(columns, [](const auto& some) { return some.empty(); });
+  std::vector<Eigen::SelfAdjointEigenSolver<MatrixXd>> found;
+  double most = 1;
+  for (const std::vector<Eigen::Index>& of_part : columns)
+  {
+    found.push_back(math::symmetric_eigen(MatrixXd(gram(of_part, of_part))));
+    most = std::max(most, found.back().eigenvalues().maxCoeff());
+  }
+  std::vector<VectorXd> motions;
+  const auto add_between = [&](double least, double largest)
+  {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (std::size_t i = 0; i < columns[k].size(); ++i)
+      {
+        const double value = found[k].eigenvalues()[i];
+        if (not(value > least * most) or not(value <= largest * most))
+          continue;
+        VectorXd by_columns = VectorXd::Zero(count);
+        by_columns(columns[k]) = found[k].eigenvectors().col(i);
+        VectorXd& motion = motions.emplace_back(
+            bases.size() * std::size_t(_modes->modes_per_body()));
+        for (std::size_t b = 0; b < bases.size(); ++b)
+          motion.segment(b * bases[b].rows(), bases[b].rows())
+              = bases[b] * by_columns.segment(first[b], bases[b].cols());
+      }
+  };
+  add_between(-infinity, no_resistance);
+  const Eigen::Index num_free = std::ssize(motions);
+  add_between(no_resistance, corner_resistance);
+  MatrixXd N(bases.size() * _modes->modes_per_body(), motions.size());
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    N.col(k) = motions[k];
+  return {std::move(N), num_free};
 }
 
 /// Shortest of the times that nodes of all ranks need; infinite if there are

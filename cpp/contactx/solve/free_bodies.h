@@ -17,6 +17,7 @@
 namespace contactx::solve
 {
 class HeldMotions;
+class MotionFields;
 class RigidModes;
 
 /// @brief Pairs of a contact as the last search left them.
@@ -257,8 +258,6 @@ private:
   struct Rows;
   /// Orthonormal motions of the bodies
   struct Motions;
-  /// Displacements by motions at owned dofs
-  struct Field;
   /// Motions that nothing but corners between facets resists
   struct Neutral;
   /// Where free bodies give way to what penetrates them
@@ -295,12 +294,13 @@ private:
   std::vector<double> strongest(const std::vector<Rows>& rows,
                                 std::span<const double> motion,
                                 double reach) const;
-  Field displacements(const Motions& motions, std::span<const double> x) const;
-  std::vector<double> springs_of(const Field& field) const;
+  MotionFields displacements(const Motions& motions,
+                             std::span<const double> x) const;
+  std::vector<double> springs_of(const MotionFields& fields) const;
   void add_springs(const Motions& motions, std::span<const double> x,
                    std::span<const double> pull,
                    std::span<const double> forces);
-  void keep_in_place(Field field);
+  void keep_in_place(MotionFields fields);
   void note_neutral(const Motions& motions, const std::vector<Rows>& rows,
                     std::span<const double> x, std::span<const double> pull,
                     std::span<const double> forces,

@@ -10,37 +10,39 @@ using namespace contactx::solve;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-HeldMotions::HeldMotions(mesh::Ranks& ranks, MatrixXd field,
+HeldMotions::HeldMotions(mesh::Ranks& ranks, MotionFields fields,
                          std::span<const double> supports)
-    : _ranks(ranks), _field(std::move(field))
+    : _ranks(ranks), _fields(std::move(fields))
 {
-  const Eigen::Index k = _field.rows();
-  MatrixXd work = MatrixXd::Zero(k, k);
-  for (std::size_t i = 0; i < supports.size(); ++i)
-    if (supports[i] > 0)
-    {
-      const auto dof = static_cast<Eigen::Index>(i);
-      _dofs.push_back(dof);
-      work += _field.col(dof) * _field.col(dof).transpose();
-    }
-  if (_ranks.size() > 1)
-    _ranks.reduce(std::span(work.data(), work.size()), mesh::Reduction::sum);
-  _work.compute(work);
+  std::vector<MatrixXd> work;
+  for (const MotionFields::Part& part : _fields.parts())
+  {
+    std::vector<Eigen::Index>& held = _supports.emplace_back();
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      if (supports[part.dofs[i]] > 0)
+        held.push_back(static_cast<Eigen::Index>(i));
+    const MatrixXd by = part.by(Eigen::all, held);
+    work.push_back(by * by.transpose());
+  }
+  _fields.sum_up(work);
+  for (const MatrixXd& of_part : work)
+    _work.emplace_back(of_part);
 }
 
 void HeldMotions::take_off(std::span<double> force)
 {
-  VectorXd left
-      = _field * Eigen::Map<const VectorXd>(force.data(), _field.cols());
-  if (_ranks.size() > 1)
-    _ranks.reduce(std::span(left.data(), left.size()), mesh::Reduction::sum);
-  const VectorXd by_motion = _work.solve(left);
+  const VectorXd left = _fields.work(force);
   double sum = 0;
-  for (const Eigen::Index dof : _dofs)
+  for (std::size_t k = 0; k < _work.size(); ++k)
   {
-    const double support = _field.col(dof).dot(by_motion);
-    force[dof] -= support;
-    sum += support * support;
+    const MotionFields::Part& part = _fields.parts()[k];
+    const VectorXd by_motion = _work[k].solve(left(part.motions));
+    for (const Eigen::Index i : _supports[k])
+    {
+      const double support = part.by.col(i).dot(by_motion);
+      force[part.dofs[i]] -= support;
+      sum += support * support;
+    }
   }
   _force = std::sqrt(mesh::total(_ranks, sum));
 }

@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include "../mesh/ranks.h"
-#include <Eigen/Core>
+#include "motion_fields.h"
 #include <Eigen/LU>
 #include <span>
 #include <vector>
@@ -18,11 +17,10 @@ class HeldMotions
 public:
   /// @brief Hold motions.
   /// @param[in] ranks The ranks.
-  /// @param[in] field Displacements by each motion at owned dofs, zero at
-  /// prescribed ones (shape=(k, num_owned * gdim)).
+  /// @param[in] fields Displacements by each motion, zero at prescribed dofs.
   /// @param[in] supports Stiffness at the dofs that are held, zero at others
   /// (shape=(num_owned * gdim)).
-  HeldMotions(mesh::Ranks& ranks, Eigen::MatrixXd field,
+  HeldMotions(mesh::Ranks& ranks, MotionFields fields,
               std::span<const double> supports);
 
   /// @brief Take the forces of the supports off a residual: what is left does
@@ -36,10 +34,11 @@ public:
 
 private:
   mesh::Ranks& _ranks;
-  Eigen::MatrixXd _field;
-  std::vector<Eigen::Index> _dofs;
-  /// Of unit motions at the supports
-  Eigen::FullPivLU<Eigen::MatrixXd> _work;
+  MotionFields _fields;
+  /// Supports of each part, by their number among its dofs
+  std::vector<std::vector<Eigen::Index>> _supports;
+  /// Of unit motions at these
+  std::vector<Eigen::FullPivLU<Eigen::MatrixXd>> _work;
   double _force = 0;
 };
 } // namespace contactx::solve

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -47,9 +46,9 @@ void sum_up(mesh::Ranks& ranks, std::span<double> values)
 /// Stiffness of the bulk against motions of a body.
 struct RigidModes::Resistance
 {
-  /// and the combinations of motions that have it
-  Eigen::SelfAdjointEigenSolver<MatrixXd> found;
-  double scale; ///< that against motions that are not rigid
+  Eigen::VectorXd values; ///< ascending
+  MatrixXd motions;       ///< combinations of the motions that have it
+  double scale;           ///< that against motions that are not rigid
 };
 
 void solve::rigid_modes(const double* d, double* modes, int gdim)
@@ -204,52 +203,56 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
   const std::size_t m = modes_per_body(), g = _gdim;
   const std::vector<double> seen = prescribed(bulk, x);
   std::vector<std::int8_t> sprung = _sprung;
-  std::vector<MatrixXd> free, weak;
-  std::vector<std::vector<double>> stiffness;
+  // Motions that prescribed displacements leave, and those of them that do not
+  // turn a body: stresses resist rotations without being a support
+  std::vector<MatrixXd> unconstrained, shifts;
   for (std::size_t b = 0; b < count(); ++b)
   {
     const double* of_body = &seen[b * (m * m + 1)];
-    const MatrixXd unconstrained
-        = null_space(Eigen::Map<const MatrixXd>(of_body, m, m), of_body[m * m]);
-    MatrixXd basis = unconstrained, yielding(m, 0);
-    std::vector<double> yields;
-    if (unconstrained.cols() > 0 and not(_is_first or sprung[b]))
+    const MatrixXd& all = unconstrained.emplace_back(
+        null_space(Eigen::Map<const MatrixXd>(of_body, m, m), of_body[m * m]));
+    shifts.emplace_back(m, 0);
+    if (all.cols() == 0 or _is_first or sprung[b])
+      continue;
+    const auto turns = all.bottomRows(m - g);
+    shifts[b]
+        = all
+          * null_space(turns.transpose() * turns, static_cast<double>(m - g));
+  }
+  const std::vector<Resistance> against_shifts = resistance(bulk, x, shifts);
+  for (std::size_t b = 0; b < count(); ++b)
+    if (shifts[b].cols() > 0)
+      sprung[b] = against_shifts[b].values.cwiseAbs().maxCoeff()
+                  > support_stiffness_min * against_shifts[b].scale;
+  std::vector<MatrixXd> free = unconstrained,
+                        weak(count(), MatrixXd::Zero(m, 0));
+  for (std::size_t b = 0; b < count(); ++b)
+    if (not(_is_first or sprung[b]))
+      unconstrained[b].resize(m, 0);
+  const std::vector<Resistance> resistances
+      = resistance(bulk, x, unconstrained);
+  std::vector<std::vector<double>> stiffness(count());
+  for (std::size_t b = 0; b < count(); ++b)
+  {
+    if (unconstrained[b].cols() == 0)
+      continue;
+    const Resistance& r = resistances[b];
+    std::vector<Eigen::Index> none, some;
+    for (Eigen::Index k = 0; k < r.values.size(); ++k)
     {
-      // Stresses resist rotations without being a support
-      const auto turns = unconstrained.bottomRows(m - g);
-      const MatrixXd shifts
-          = unconstrained
-            * null_space(turns.transpose() * turns, static_cast<double>(m - g));
-      if (shifts.cols() > 0)
+      const double size = std::abs(r.values[k]);
+      if (size <= support_stiffness_min * r.scale)
+        none.push_back(k);
+      else if (size <= weak_support_max * r.scale)
       {
-        const Resistance r = resistance(bulk, x, b, shifts);
-        sprung[b] = r.found.eigenvalues().cwiseAbs().maxCoeff()
-                    > support_stiffness_min * r.scale;
+        some.push_back(k);
+        stiffness[b].push_back(size);
       }
     }
-    if (unconstrained.cols() > 0 and (_is_first or sprung[b]))
-    {
-      const Resistance r = resistance(bulk, x, b, unconstrained);
-      std::vector<Eigen::Index> none, some;
-      for (Eigen::Index k = 0; k < unconstrained.cols(); ++k)
-      {
-        const double size = std::abs(r.found.eigenvalues()[k]);
-        if (size <= support_stiffness_min * r.scale)
-          none.push_back(k);
-        else if (size <= weak_support_max * r.scale)
-        {
-          some.push_back(k);
-          yields.push_back(size);
-        }
-      }
-      basis = unconstrained * r.found.eigenvectors()(Eigen::all, none);
-      yielding = unconstrained * r.found.eigenvectors()(Eigen::all, some);
-      if (basis.cols() < unconstrained.cols())
-        sprung[b] = 1;
-    }
-    free.push_back(std::move(basis));
-    weak.push_back(std::move(yielding));
-    stiffness.push_back(std::move(yields));
+    free[b] = unconstrained[b] * r.motions(Eigen::all, none);
+    weak[b] = unconstrained[b] * r.motions(Eigen::all, some);
+    if (free[b].cols() < unconstrained[b].cols())
+      sprung[b] = 1;
   }
   _free = std::move(free);
   _weak = std::move(weak);
@@ -289,54 +292,70 @@ std::vector<double> RigidModes::prescribed(Bulk& bulk,
   return seen;
 }
 
-RigidModes::Resistance RigidModes::resistance(Bulk& bulk,
-                                              std::span<const double> x,
-                                              std::size_t b,
-                                              const MatrixXd& motions) const
+std::vector<RigidModes::Resistance>
+RigidModes::resistance(Bulk& bulk, std::span<const double> x,
+                       const std::vector<MatrixXd>& motions) const
 {
-  const std::size_t m = modes_per_body(), g = _gdim, k = motions.cols();
+  const std::size_t m = modes_per_body(), g = _gdim;
   const auto owned = body().first(_bodies->map().num_owned());
   const std::size_t n = owned.size() * g;
-  std::vector<std::size_t> dofs;
-  MatrixXd fields = MatrixXd::Zero(n, k);
+  // All bodies move at once, as none has a stiffness against another one
+  Eigen::Index most = 0;
+  for (const MatrixXd& of_body : motions)
+    most = std::max(most, of_body.cols());
+  std::vector<Resistance> found(motions.size());
+  if (most == 0)
+    return found;
+  MatrixXd fields = MatrixXd::Zero(n, most);
   std::array<double, 18> modes;
   for (std::size_t i = 0; i < owned.size(); ++i)
   {
-    if (static_cast<std::size_t>(owned[i]) != b)
-      continue;
+    const MatrixXd& of_body = motions[owned[i]];
     at(static_cast<std::int32_t>(i), x, modes.data());
-    fields.middleRows(i * g, g)
-        = Eigen::Map<const MatrixXd>(modes.data(), m, g).transpose() * motions;
-    for (std::size_t c = 0; c < g; ++c)
-      dofs.push_back(i * g + c);
+    fields.block(i * g, 0, g, of_body.cols())
+        = Eigen::Map<const MatrixXd>(modes.data(), m, g).transpose() * of_body;
   }
   const auto diagonal = bulk.diagonal();
   const auto forces
-      = bulk.products({fields.data(), k * n}, static_cast<int>(k));
+      = bulk.products({fields.data(), most * n}, static_cast<int>(most));
   mesh::Ranks& ranks = _bodies->map().ranks();
   ranks.agree(
       [&]
       {
-        if (diagonal.size() != n or forces.size() != k * n)
+        if (diagonal.size() != n or forces.size() != most * n)
           throw std::invalid_argument(
               "the diagonal and the products of the stiffness must have a "
               "value for each of "
               + std::to_string(n) + " owned dofs");
       });
-  // The last column is the stiffness of the diagonal
-  MatrixXd sums = MatrixXd::Zero(k, k + 1);
-  for (std::size_t p = 0; p < k; ++p)
-    for (const std::size_t dof : dofs)
+  // Of each body a matrix whose last column is the stiffness of the diagonal
+  const std::size_t size = most * (most + 1);
+  std::vector<double> sums(motions.size() * size);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::size_t b = owned[i / g];
+    const Eigen::Index k = motions[b].cols();
+    Eigen::Map<MatrixXd> sum(&sums[b * size], most, most + 1);
+    for (Eigen::Index p = 0; p < k; ++p)
     {
-      const double u = fields(dof, p);
-      for (std::size_t q = 0; q < k; ++q)
-        sums(p, q) += u * forces[q * n + dof];
-      sums(p, k) += u * std::abs(diagonal[dof]) * u;
+      const double u = fields(i, p);
+      for (Eigen::Index q = 0; q < k; ++q)
+        sum(p, q) += u * forces[q * n + i];
+      sum(p, most) += u * std::abs(diagonal[i]) * u;
     }
-  sum_up(ranks, {sums.data(), static_cast<std::size_t>(sums.size())});
-  double scale = -std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < k; ++p)
-    scale = std::max(scale, sums(p, k));
-  const MatrixXd energy = (sums.leftCols(k) + sums.leftCols(k).transpose()) / 2;
-  return {math::symmetric_eigen(energy), scale};
+  }
+  sum_up(ranks, sums);
+  for (std::size_t b = 0; b < motions.size(); ++b)
+  {
+    const Eigen::Index k = motions[b].cols();
+    if (k == 0)
+      continue;
+    const Eigen::Map<const MatrixXd> sum(&sums[b * size], most, most + 1);
+    const MatrixXd energy = sum.topLeftCorner(k, k);
+    const auto eigen
+        = math::symmetric_eigen(MatrixXd((energy + energy.transpose()) / 2));
+    found[b] = {eigen.eigenvalues(), eigen.eigenvectors(),
+                sum.col(most).head(k).maxCoeff()};
+  }
+  return found;
 }

@@ -104,8 +104,9 @@ private:
 
   void check(Bulk& bulk, std::span<const double> x) const;
   std::vector<double> prescribed(Bulk& bulk, std::span<const double> x) const;
-  Resistance resistance(Bulk& bulk, std::span<const double> x, std::size_t body,
-                        const Eigen::MatrixXd& motions) const;
+  std::vector<Resistance>
+  resistance(Bulk& bulk, std::span<const double> x,
+             const std::vector<Eigen::MatrixXd>& motions) const;
 
   std::shared_ptr<const mesh::Bodies> _bodies;
   int _gdim;

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 contactx authors
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
+#include "generator.h"
 #include "scene.h"
 #include <contactx/geometry/shape.h>
 #include <contactx/search/finder.h>
@@ -483,5 +484,44 @@ TEST(Bisector, IsNothingFarFromTheVertex)
   const auto q = selected(down, over(down, -0.4));
   ASSERT_TRUE(q);
   EXPECT_EQ(q->feature, geometry::interior);
+}
+/// A point and one that was in front of it, both of which have moved since.
+TEST(View, HasAllThatWasInFrontBeforeItMoved)
+{
+  Generator random(11);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Vector<3> normal = random.unit<3>(), p = random.vector<3>(-3, 3);
+    Vector<3> other = p + random.vector<3>(-3, 3);
+    if (dot(normal, other - p) < 0)
+      other = other - (2 * dot(normal, other - p)) * normal;
+    const double moved = random(0, 0.5);
+    const Vector<3> now = p + random(0, moved) * random.unit<3>(),
+                    turned = random.unit<3>();
+    const Vector<3> sum = normal + random(0, 0.5) * turned,
+                    new_normal = (1 / norm(sum)) * sum;
+    Box box = Box::empty();
+    box.add(other + random(0, moved) * random.unit<3>());
+    const View view{0, moved, norm(new_normal - normal)};
+    EXPECT_TRUE(view.has(box, now, new_normal));
+  }
+}
+
+TEST(View, PassesOverWhatIsBehind)
+{
+  const Vector<3> up{0, 0, 1};
+  const auto at = [](double z)
+  {
+    Box box = Box::empty();
+    box.add(Vector<3>{1, 0, z});
+    box.add(Vector<3>{2, 1, z - 1});
+    return box;
+  };
+  const View view{.near = 1.2, .moved = 0.1, .level = 0.01};
+  EXPECT_TRUE(view.has(at(0.3), {}, up));
+  EXPECT_TRUE(view.has(at(-0.22), {}, up));
+  EXPECT_TRUE(view.has(at(-0.6), {}, up)); // near
+  EXPECT_FALSE(view.has(at(-0.7), {}, up));
+  EXPECT_TRUE(View{}.has(at(-9), {}, up));
 }
 } // namespace

@@ -107,6 +107,10 @@ void SelfSight::refit(std::span<const double> x0, std::span<const double> x)
   _normal0 = geometry::nodal_normals(_surface.facets(), _x0, _gdim);
   _normal = geometry::nodal_normals(_surface.facets(), _x, _gdim);
   _finder.refit(_x);
+  _moved = 0;
+  for (std::size_t i = 0; i < _x.size(); i += _gdim)
+    _moved = std::max(_moved, norm(vector_at(_x, i / _gdim, _gdim)
+                                   - vector_at(_x0, i / _gdim, _gdim)));
 }
 
 bool SelfSight::sees(std::int32_t node, const Vector<3>& normal,
@@ -131,9 +135,11 @@ FoundPlace SelfSight::find(std::int32_t node, double reach,
 {
   const Vector<3> p = vector_at(_x, node, _gdim),
                   normal = vector_at(_normal, node, _gdim);
-  FoundPlace found
-      = _finder.find(_x, p, normal, reach, hint, [&](const Projection& q)
-                     { return sees(node, normal, q); });
+  const View view{passed_fraction * _thickness[node], _moved,
+                  norm(normal - vector_at(_normal0, node, _gdim)), gap_rel_tol};
+  FoundPlace found = _finder.find(
+      _x, p, normal, reach, hint,
+      [&](const Projection& q) { return sees(node, normal, q); }, view);
   if (found.selected and found.selected->excess > geometry::facet_margin
       and found.selected->feature == geometry::interior
       and norm(found.nearest->d)

@@ -90,6 +90,7 @@ private:
   WholeSurface _surface;
   int _gdim;
   std::vector<double> _reference, _x0, _x, _normal0, _normal, _thickness;
+  double _moved = 0; // largest movement of a node in the step
   std::vector<std::int64_t> _body;
   Finder _finder;
   SelfOrder _order;
