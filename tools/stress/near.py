@@ -24,8 +24,8 @@ _BESIDE, _KEPT, _HIDDEN = 0.06, 3.0, 0.04
 # How far off facets are in front of points, in sizes of the larger facets
 _FRONT = 1.0
 # Part of the largest cosine by which facets there oppose a facet of the slave, from which on others
-# count, too
-_OPPOSED = 0.3
+# count, too, and how near they do anyway, in sizes of that facet
+_OPPOSED, _AT_EDGE = 0.4, 0.5
 # Part of a normal at a corner that rounding of what touches there may add
 _TILT = 1e-6
 # Rounding of local coordinates
@@ -278,14 +278,13 @@ class Measure:
         if mean:
             # The nearest facet along a point's way
             order = np.lexsort((np.abs(near.gap), near.point))
-            return self._facing(
-                near[order[np.unique(near.point[order], return_index=True)[1]]], len(x)
-            )
+            near = near[order[np.unique(near.point[order], return_index=True)[1]]]
+            return self._facing(near, faces.sizes(x[self._slave]), len(x))
         if k > 2:
             return near
         return self._with_corners(near, points, x) if finite else self._with_vertices(near, x)
 
-    def _facing(self, near: Near, n: int) -> Near:
+    def _facing(self, near: Near, sizes: Array, n: int) -> Near:
         """Without what opposes a facet far less than the best there and beside it.
 
         Behind an edge of the master are its sides, far off.
@@ -294,8 +293,8 @@ class Measure:
         against = -(near.normal * self.own[near.point]).sum(axis=1)
         best = np.zeros(n)
         np.maximum.at(best, self._slave[facet], against[:, None])
-        around = best[self._slave].max(axis=1)
-        return near[(against >= _OPPOSED * around[facet]) | self.edge[facet]]
+        opposed = against >= _OPPOSED * best[self._slave].max(axis=1)[facet]
+        return near[opposed | self.edge[facet] | (np.abs(near.gap) <= _AT_EDGE * sizes[facet])]
 
     def _ways(self, points: Array, corners: Array, point: Numbers, facet: Numbers) -> Array:
         """Directions along which points of facets are measured.

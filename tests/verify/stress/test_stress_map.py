@@ -32,6 +32,7 @@ _HARD = (
     "roller at large strains, depth in radii: 1, alike, neo-hooke, True, n2s, mu 0, 8, True",
     "past one another, way in heights: 0.6, plate:plate, 0.4, whole, n2s, 1, True",
     "past one another, way in heights: 0.3, block:block, 0.1, whole, s2s, 3, False",
+    "past one another, way in heights: 1, block:block, 0.4, whole, s2s, 3, False",
     *(f"all at random: {i}" for i in ("12, 6", "7, 6", "4, 15", "0, 6", "4, 4")),
 )
 # A thousand steps take a minute
