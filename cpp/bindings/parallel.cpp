@@ -5,6 +5,7 @@
 #include "bindings.h"
 #include "check.h"
 #include <algorithm>
+#include <contactx/mesh/partition.h>
 #include <pybind11/functional.h>
 
 namespace py = pybind11;
@@ -208,4 +209,17 @@ void contactx_bindings::parallel(py::module_& m)
   py::class_<PythonNodes, Halo, std::shared_ptr<PythonNodes>>(
       m, "PythonNodes", "A halo whose adapter is an object of Python")
       .def(py::init<const py::object&>(), py::arg("adapter"));
+  m.def(
+      "parts_with_contact",
+      [](py::object adapter, const Array<std::int64_t>& cells,
+         const Array<double>& x, const Array<std::int8_t>& at_contact,
+         int parts)
+      {
+        const std::unique_ptr<Ranks> ranks = make_ranks(std::move(adapter));
+        return array(parts_with_contact(
+            *ranks, view(cells), static_cast<int>(cells.shape(1)),
+            {view(x), static_cast<int>(x.shape(1)), view(at_contact)}, parts));
+      },
+      py::arg("ranks"), py::arg("cells"), py::arg("x"), py::arg("at_contact"),
+      py::arg("parts"));
 }

@@ -11,6 +11,7 @@ back where one fails. ``VTKOutput`` writes the results. Import contactx before d
 # First, because it loads the wheels' MPI and PETSc before DOLFINx
 from contactx._host import compat as compat  # isort: skip
 
+from contactx._host.parallel.partition import partitioner
 from contactx._host.pictures import animate
 from contactx._host.projection import Projection
 from contactx.assembler import ContactAssembler
@@ -49,6 +50,7 @@ __all__ = [
     "Surface",
     "VTKOutput",
     "animate",
+    "partitioner",
 ]
 
 __version__ = "0.2.0"

@@ -918,6 +918,9 @@ def original_nodes(
     numbers: ArrayLike,
     count: Int,
 ) -> NDArray[np.int64]: ...
+def parts_with_contact(
+    ranks: Any, cells: ArrayLike, x: ArrayLike, at_contact: ArrayLike, parts: Int
+) -> NDArray[np.int32]: ...
 def reference_positions(
     cell: str, degree: Int, nodes: ArrayLike, num_nodes: Int, geometry: MeshGeometry
 ) -> NDArray[np.float64]: ...

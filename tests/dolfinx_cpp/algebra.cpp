@@ -8,6 +8,7 @@
 #include "scenes.h"
 #include "sliding_block.h"
 #include <contactx_dolfinx/algebra.h>
+#include <contactx_dolfinx/partitioner.h>
 #include <dolfinx/fem/Constant.h>
 #include <numeric>
 
@@ -393,6 +394,45 @@ void solvers(cx::Assembler& assembler, cx::Algebra& algebra)
                         and scenes::norm(found) < 1e-9);
   }
 }
+/// Two rows of squares that touch along a line, all on the first rank.
+void partition()
+{
+  const int size = dolfinx::MPI::size(MPI_COMM_WORLD);
+  constexpr int length = 40;
+  Vector x;
+  std::vector<std::int8_t> near;
+  std::vector<Int> cells;
+  if (dolfinx::MPI::rank(MPI_COMM_WORLD) == 0)
+  {
+    for (int node = 0; node < 3 * (length + 1); ++node)
+    {
+      x.insert(x.end(),
+               {double(node % (length + 1)), double(node / (length + 1))});
+      near.push_back(node / (length + 1) == 1);
+    }
+    for (int cell = 0; cell < 2 * length; ++cell)
+      for (const int corner : {0, 1, length + 1, length + 2})
+        cells.push_back(cell + cell / length + corner);
+  }
+  const auto found = cx::partitioner(x, 2, near)(
+      MPI_COMM_WORLD, size, {mesh::CellType::quadrilateral}, {cells});
+  bool is_right = found.num_nodes() == std::ssize(cells) / 4;
+  for (int rank = 0; is_right and not cells.empty() and rank < size; ++rank)
+    is_right
+        = std::abs(std::ranges::count(found.array(), rank) - 2 * length / size)
+          <= 2;
+  check("partition", is_right);
+  bool is_refused = false;
+  try
+  {
+    cx::partitioner({}, 2, {})(MPI_COMM_WORLD, size, {}, {});
+  }
+  catch (const std::invalid_argument&)
+  {
+    is_refused = true;
+  }
+  check("partition of mixed cells", is_refused);
+}
 } // namespace
 
 int main(int argc, char* argv[])
@@ -427,6 +467,7 @@ int main(int argc, char* argv[])
     cx::Algebra algebra(assembler, "algebra_");
     operations(algebra);
     solvers(assembler, algebra);
+    partition();
 
     check("no preconditioner", algebra.preconditioner().empty());
     PetscOptionsSetValue(nullptr, "-algebra_pc_type", "jacobi");

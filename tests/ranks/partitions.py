@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+import contactx as cx
 from dolfinx import mesh
 from dolfinx.io.gmsh import MeshData, extract_geometry, model_to_mesh
 
@@ -54,8 +55,8 @@ def shifted(x: Points, size: int) -> Ranks:
 CUSTOM: dict[str, Callable[[Points, int], Ranks]] = {
     function.__name__: function for function in (first, bodies, opposed, layers, scattered, shifted)
 }
-# That of DOLFINx, without and with ghost cells
-DEFAULT, GHOSTED = "default", "ghosted"
+# That of DOLFINx, without and with ghost cells, and one that shares out what is at height zero
+DEFAULT, GHOSTED, SHARED = "default", "ghosted", "shared"
 
 
 @contextmanager
@@ -74,9 +75,12 @@ def _distributed(
 ) -> MeshData:
     if name == GHOSTED and comm.size > 1:
         partitioner = mesh.create_cell_partitioner(mesh.GhostMode.shared_facet, 2)
-    elif name in CUSTOM and comm.size > 1:
+    elif name in (SHARED, *CUSTOM) and comm.size > 1:
         x = extract_geometry(model)[:, :gdim] if comm.rank == rank else np.zeros((0, gdim))
-        partitioner = by_middles(CUSTOM[name], x)
-    elif name not in (DEFAULT, GHOSTED, *CUSTOM):
+        if name == SHARED:
+            partitioner = cx.partitioner(x, lambda x: np.abs(x[-1]) < 1e-9)
+        else:
+            partitioner = by_middles(CUSTOM[name], x)
+    elif name not in (DEFAULT, GHOSTED, SHARED, *CUSTOM):
         raise ValueError(f"no partition {name}")
     return model_to_mesh(model, comm, rank, gdim=gdim, partitioner=partitioner)

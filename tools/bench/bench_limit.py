@@ -56,15 +56,16 @@ COLUMNS: list[tables.Column] = [
 ]
 
 
-def contact(path: str, method: str, friction: float) -> dict[str, Any]:
+def contact(path: str, method: str, friction: float, shared: bool = False) -> dict[str, Any]:
     """Solve in this process.
 
     Args:
         path: File of the mesh.
         method: That of the contact.
         friction: Coefficient.
+        shared: Whether each rank has a part of the contact.
     """
-    data = hertz_case.read_mesh(path)
+    data = hertz_case.read_mesh(path, shared)
     meter = runner.Meter()
     scene = scenes.HertzSphere(data, "finite", method=method, friction=friction)
     scene.problem.solve()

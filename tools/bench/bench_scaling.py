@@ -20,6 +20,7 @@ import os
 import statistics
 import sys
 from collections.abc import Iterable, Sequence
+from itertools import product
 from typing import Any
 
 import bench_limit
@@ -36,6 +37,7 @@ STRONG = [
     ("h", "h", "g"),
     ("scene", "scene", "s"),
     ("friction", "friction", "g"),
+    ("shared\nout", "shared", ""),
     ("dofs", "dofs", ",d"),
     ("it", "iterations", "d"),
     ("of two", "iterations of two", "d"),
@@ -72,17 +74,22 @@ def strong(
     sizes: Iterable[float],
     methods: Sequence[str] = METHODS,
     frictions: Sequence[float] = bench_limit.FRICTION,
+    partitions: Sequence[bool] = (False, True),
 ) -> list[dict[str, Any]]:
     """Measure the common Hertz problem on one and two ranks in turn, and a linear solve.
 
-    Wall seconds are medians. "efficiency" is how often two ranks are as fast as one, over how often
+    Each by DOLFINx's partition and by one that gives both ranks a part of the contact. Wall seconds
+    are medians. "efficiency" is how often two ranks are as fast as one, over how often
     they are in the linear solve.
     """
     rows = []
     for h in sizes:
         path = str(hertz_case.mesh_file(h))
         jobs: list[tuple[str, dict[str, Any]]] = [("linear", {})]
-        jobs += [("contact", {"method": m, "friction": f}) for m in methods for f in frictions]
+        jobs += [
+            ("contact", {"method": m, "friction": f, "shared": s})
+            for m, f, s in product(methods, frictions, partitions)
+        ]
         runs = [
             [
                 [runner.on_ranks(f"bench_limit:{name}", n, path=path, **job) for n in (1, 2)]

@@ -16,9 +16,12 @@ import numpy.typing as npt
 import runner
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
+import basix.ufl
 import contactx as cx
+import ufl
 from dolfinx.io import XDMFFile
 from dolfinx.io.gmsh import MeshData
+from dolfinx.mesh import create_mesh
 
 import meshes
 import scenes
@@ -76,16 +79,37 @@ def write_mesh(h: float, folder: str, cells: str = "tetrahedra") -> dict[str, fl
     return {"cells": domain.topology.index_map(3).size_global}
 
 
-def read_mesh(path: str | Path) -> MeshData:
-    """Read such a file."""
+def read_mesh(path: str | Path, shared: bool = False) -> MeshData:
+    """Read such a file.
+
+    Args:
+        path: The file.
+        shared: Whether each rank has a part of the contact.
+    """
     # contactx must load the wheels' MPI first
     from mpi4py import MPI
 
     with XDMFFile(MPI.COMM_WORLD, path, "r") as file:
-        domain = file.read_mesh(name="mesh")
+        if shared:
+            cells, x = (
+                read(name="mesh") for read in (file.read_topology_data, file.read_geometry_data)
+            )
+            element = basix.ufl.element("Lagrange", "tetrahedron", 1, shape=(3,))
+            partitioner = cx.partitioner(x, _comes_close)
+            domain = create_mesh(
+                MPI.COMM_WORLD, cells, ufl.Mesh(element), x, partitioner=partitioner
+            )
+        else:
+            domain = file.read_mesh(name="mesh")
         domain.topology.create_connectivity(2, 3)
         cells, facets = (file.read_meshtags(domain, name) for name in ("cells", "facets"))
     return MeshData(domain, cells, facets, None, None, {})
+
+
+def _comes_close(x: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    """Points of both surfaces within twice the radius of the contact that Hertz gives."""
+    r = np.hypot(x[0], x[1])
+    return np.asarray((r < 0.25) & (np.abs(x[2]) < 0.04))
 
 
 def counts(problem: cx.ContactProblem) -> dict[str, Any]:

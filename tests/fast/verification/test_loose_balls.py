@@ -35,6 +35,15 @@ def test_discs_make_room(friction):
     assert balls.nearest() > 0.98
 
 
+def test_many_balls_make_room():
+    """As many bodies have six times the motions, and most nodes see nothing."""
+    balls = LooseBalls(3, layers=4, width=4, size=2.5)
+    assert sum(press(balls, 1, 1.2)) == 0
+    assert balls.problem.report.free_modes == 6 * len(balls.centres) == 300
+    assert balls.largest_strain() < 1e-12
+    assert balls.nearest() > 0.95
+
+
 @pytest.mark.parametrize(("friction", "solves"), [(0.0, 250), (0.3, 500)])
 def test_discs_are_pressed(friction, solves):
     """All that presses them together balances, and no disc is left loose."""

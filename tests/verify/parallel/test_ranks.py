@@ -9,6 +9,8 @@ from ranks.runs import Runs
 
 # Ranks without cells, without a body, without slave nodes or master facets; ghost cells; any
 UNUSUAL = {"first": 2, "bodies": 3, "opposed": 2, "layers": 3, "scattered": 4, "ghosted": 3}
+# Planes across the contact
+UNUSUAL |= {"shared": 2}
 # What they are tried on: free bodies, ties, nodes in several contacts, dragging, obstacles, both
 # solvers, quadratic displacement, weights, heat
 TRIED = (

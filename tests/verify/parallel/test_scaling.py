@@ -21,10 +21,12 @@ def folder(tmp_path, monkeypatch):
 
 def test_strong_scaling(monkeypatch):
     monkeypatch.setattr(bench_scaling, "RUNS", 1)
-    linear, contact = bench_scaling.strong([0.07], METHODS[:1], [0.3])
+    linear, *contact = bench_scaling.strong([0.07], METHODS[:1], [0.3])
     assert linear["efficiency"] == 1
-    assert contact["iterations"] == contact["iterations of two"]
-    assert contact["ratio"] == pytest.approx(contact["efficiency"] * linear["ratio"])
+    assert [row["shared"] for row in contact] == [False, True]
+    for row in contact:
+        assert row["iterations"] == row["iterations of two"]
+        assert row["ratio"] == pytest.approx(row["efficiency"] * linear["ratio"])
 
 
 @pytest.mark.parametrize("method", METHODS)
