@@ -10,7 +10,7 @@
 #include "motion_fields.h"
 #include "rigid_modes.h"
 #include "springs.h"
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,6 +76,29 @@ std::vector<Eigen::Index> first_columns(const std::vector<MatrixXd>& bases)
   return first;
 }
 
+/// Columns of the bodies that a symmetric matrix joins, each in one part.
+/// @param[in] gram The matrix (shape=(first.back(), >= first.back())).
+/// @param[in] first First column of each body.
+std::vector<std::vector<Eigen::Index>>
+parts(const MatrixXd& gram, const std::vector<Eigen::Index>& first)
+{
+  const std::size_t count = first.size() - 1;
+  std::vector<std::int32_t> owner(first.back()), joined;
+  for (std::size_t b = 0; b < count; ++b)
+    std::fill(owner.begin() + first[b], owner.begin() + first[b + 1],
+              static_cast<std::int32_t>(b));
+  for (Eigen::Index q = 0; q < first.back(); ++q)
+    for (Eigen::Index p = 0; p < q; ++p)
+      if (gram(p, q) != 0)
+        joined.insert(joined.end(), {owner[p], owner[q]});
+  const std::vector<std::int32_t> part
+      = mesh::connected_parts(joined, 2, static_cast<std::int32_t>(count));
+  std::vector<std::vector<Eigen::Index>> columns(count);
+  for (Eigen::Index p = 0; p < first.back(); ++p)
+    columns[part[owner[p]]].push_back(p);
+  std::erase_if(columns, [](const auto& some) { return some.empty(); });
+  return columns;
+}
 } // namespace
 
 /// Slave nodes of a contact that have a pair.
@@ -888,9 +911,9 @@ FreeBodies::Room FreeBodies::room(const std::vector<Rows>& rows,
       ranks().reduce(std::span(gram.data(), gram.size()), Reduction::sum);
     const double most = std::max(gram.diagonal().maxCoeff(), 1.0);
     gram.diagonal().array() += corner_resistance * most;
-    const Eigen::SparseMatrix<double> near = gram.leftCols(count).sparseView();
-    motion = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(near).solve(
-        gram.col(count));
+    for (const std::vector<Eigen::Index>& part : parts(gram, first))
+      motion(part)
+          = gram(part, part).eval().ldlt().solve(gram(part, count)).eval();
   }
   room.depth = mesh::largest(ranks(), room.depth);
   room.motion = by_body(bases) * motion;
@@ -1012,21 +1035,7 @@ FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
   }
   if (ranks().size() > 1)
     ranks().reduce(std::span(gram.data(), gram.size()), Reduction::sum);
-  // Bodies that no closed node joins move by themselves
-  std::vector<std::int32_t> owner(count), joined;
-  for (std::size_t b = 0; b < bases.size(); ++b)
-    std::fill(owner.begin() + first[b], owner.begin() + first[b + 1],
-              static_cast<std::int32_t>(b));
-  for (Eigen::Index q = 0; q < count; ++q)
-    for (Eigen::Index p = 0; p < q; ++p)
-      if (gram(p, q) != 0)
-        joined.insert(joined.end(), {owner[p], owner[q]});
-  const std::vector<std::int32_t> part = mesh::connected_parts(
-      joined, 2, static_cast<std::int32_t>(bases.size()));
-  std::vector<std::vector<Eigen::Index>> columns(bases.size());
-  for (Eigen::Index p = 0; p < count; ++p)
-    columns[part[owner[p]]].push_back(p);
-  std::erase_if(columns, [](const auto& some) { return some.empty(); });
+  const std::vector<std::vector<Eigen::Index>> columns = parts(gram, first);
   std::vector<Eigen::SelfAdjointEigenSolver<MatrixXd>> found;
   double most = 1;
   for (const std::vector<Eigen::Index>& of_part : columns)
