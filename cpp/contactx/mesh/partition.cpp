@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -55,11 +56,9 @@ Middles middles_of(Ranks& ranks, std::span<const std::int64_t> cells, int width,
                    const InputNodes& nodes)
 {
   const auto n = static_cast<std::int64_t>(nodes.at_contact.size());
-  std::vector<std::int64_t> ends(ranks.size());
-  for (int r = ranks.rank(); r < ranks.size(); ++r)
-    ends[r] = n;
-  if (ranks.size() > 1)
-    ranks.reduce(std::span(ends), Reduction::sum);
+  std::vector<std::int64_t> ends
+      = gathered(ranks, std::span<const std::int64_t>(&n, 1));
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
   const std::int64_t first = ends[ranks.rank()] - n;
   std::vector<std::int64_t> wanted(cells.begin(), cells.end());
   std::ranges::sort(wanted);
@@ -124,7 +123,7 @@ Middles middles_of(Ranks& ranks, std::span<const std::int64_t> cells, int width,
 /// Some of the cells, by their numbers on this rank.
 using Some = std::vector<std::size_t>;
 
-/// Middles on one side of a plane.
+/// A plane, and what is below it.
 struct Side
 {
   Vector<3> direction;
@@ -161,12 +160,6 @@ public:
   }
 
 private:
-  void sum_up(std::span<double> values) const
-  {
-    if (_ranks.size() > 1)
-      _ranks.reduce(values, Reduction::sum);
-  }
-
   /// Principal axes of points with weights, longest extent first, and their
   /// total weight.
   std::pair<Eigen::Matrix3d, double> axes(const Some& some,
@@ -186,7 +179,7 @@ private:
           sums[4 + i + j + (i > 0)] += weight * x[i] * x[j];
       }
     }
-    sum_up(sums);
+    _ranks.reduce(std::span<double>(sums), Reduction::sum);
     const double total = std::max(sums[0], 1.0);
     Eigen::Matrix3d moments;
     for (int i = 0; i < 3; ++i)
@@ -240,12 +233,11 @@ private:
         ends[2 * k] = std::max(ends[2 * k], -height);
         ends[2 * k + 1] = std::max(ends[2 * k + 1], height);
       }
-    if (_ranks.size() > 1)
-      _ranks.reduce(std::span(ends), Reduction::largest);
+    _ranks.reduce(std::span(ends), Reduction::largest);
     std::array<double, 2> totals{static_cast<double>(some.size()), 0};
     for (const std::size_t c : some)
       totals[1] += _cells.contact[c];
-    sum_up(totals);
+    _ranks.reduce(std::span<double>(totals), Reduction::sum);
     std::vector<double> low(n), width(n), cells(n), contact(n);
     for (std::size_t k = 0; k < n; ++k)
     {
@@ -268,7 +260,7 @@ private:
           counts[2 * (bins * k + bin)] += 1;
           counts[2 * (bins * k + bin) + 1] += _cells.contact[c];
         }
-      sum_up(counts);
+      _ranks.reduce(std::span(counts), Reduction::sum);
       for (std::size_t k = 0; k < n; ++k)
       {
         int bin = 0;
@@ -331,7 +323,7 @@ mesh::parts_with_contact(Ranks& ranks, std::span<const std::int64_t> cells,
       height[0] = std::max(height[0], nodes.x[i]);
       height[1] = std::max(height[1], -nodes.x[i]);
     }
-    ranks.reduce(std::span(height), Reduction::largest);
+    ranks.reduce(std::span<double>(height), Reduction::largest);
   }
   const Middles all = middles_of(ranks, cells, width, nodes);
   Some some(all.middle.size());

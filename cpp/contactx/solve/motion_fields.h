@@ -27,9 +27,6 @@ public:
     Eigen::MatrixXd by;                ///< shape=(motions.size(), dofs.size())
   };
 
-  /// @brief No motions.
-  explicit MotionFields(mesh::Ranks& ranks) : _ranks(&ranks) {}
-
   /// @brief Take motions.
   /// @param[in] ranks The ranks.
   /// @param[in] parts Each motion in one of them; their numbers are from 0 on.
