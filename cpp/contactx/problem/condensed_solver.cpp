@@ -109,10 +109,10 @@ void CondensedSolver::solve(std::span<const double> b, std::span<double> x)
     if (loop.path().is_on())
     {
       _accuracy.skip();
-      _accuracy.set(now.tolerance, now.tolerance, 0);
+      _accuracy.set(now.tolerance, now.tolerance, 0, now.forces);
     }
     else
-      _accuracy.set(now.residual, now.tolerance, loop.changing(),
+      _accuracy.set(now.residual, now.tolerance, loop.changing(), now.forces,
                     loop.active_set().cycles() > 0);
   }
   ++_statistics.solves;

@@ -13,10 +13,9 @@ namespace
 constexpr double next_residual_min = 1e-5, next_residual_max = 0.1;
 /// Residual of a linear solve over that of the next iterate
 constexpr double solve_fraction = 0.3;
-/// Number of solves at a step's start that are finer, and their factor: less
-/// accurate ones do not recognise slender bodies
-constexpr int num_fine_solves = 2;
-constexpr double fine_solve_factor = 0.3;
+/// The same of a step's first solve. What is left of a prescribed displacement
+/// is large against the forces of contact: it would decide which nodes close
+constexpr double first_residual_max = 1e-3;
 /// Residual of the last solves over Newton's tolerance: far less with friction,
 /// as errors must not decide between stick and slip
 constexpr double last_solve_fraction = 0.1, last_solve_fraction_friction = 0.01;
@@ -25,7 +24,7 @@ constexpr double first_solve_fraction_friction = 1e-10;
 } // namespace
 
 void Accuracy::set(double residual, double tolerance, double changing,
-                   bool has_cycled)
+                   double forces, bool has_cycled)
 {
   const bool settled = has_cycled or changing == 0;
   if (settled and _before > 0)
@@ -40,10 +39,14 @@ void Accuracy::set(double residual, double tolerance, double changing,
   if (_has_path and _solves == 0)
     left = first_solve_fraction_friction * residual;
   else if (not settled)
-    left = std::max(
-        left, (_solves < num_fine_solves ? fine_solve_factor : 1.0)
-                  * std::clamp(changing, next_residual_min, next_residual_max)
-                  * residual);
+  {
+    const double most = _solves == 0 ? first_residual_max : next_residual_max;
+    left = std::max(left,
+                    std::clamp(changing, next_residual_min, most) * residual);
+    // Nodes near the cone would stick or slip by errors as large as forces
+    if (_has_path)
+      left = std::min(left, forces);
+  }
   // Where Newton's method leaves less than the tolerance, errors of the solve
   // alone could make another iterate necessary
   if (left <= tolerance)

@@ -12,8 +12,7 @@ namespace contactx::solve
 /// it has converged, Newton's method leaves a multiple of the residual's
 /// square, as seen in the last iteration. The first iterate of a step tells
 /// from where nodes slip that touch within it, so that the solution depends on
-/// this one, which is solved for exactly. The second one decides whether
-/// contact is made soft for a while.
+/// this one, which is solved for exactly.
 class Accuracy
 {
 public:
@@ -39,9 +38,10 @@ public:
   /// @param[in] tolerance Bound that it must fall below.
   /// @param[in] changing Part of the nodes in contact whose status or pair has
   /// changed.
+  /// @param[in] forces Forces of the problem, as in Iterate.
   /// @param[in] has_cycled Whether an active set has come back in this step:
   /// only exact solves tell it from its successor.
-  void set(double residual, double tolerance, double changing,
+  void set(double residual, double tolerance, double changing, double forces,
            bool has_cycled = false);
 
   /// @brief Residual that the next solve may leave; zero before `set`.

@@ -234,21 +234,21 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
     auto errors = rounding_of_cancelling(residual);
     const double all = errors ? norm(*errors) : 0;
     if (not errors or residual > of_gaps + all)
-      return {residual, tolerance, defect};
+      return {residual, tolerance, scale, defect};
     excused = std::move(*errors);
     whole = all;
   }
   if (has_run_away())
-    return {residual, 0, defect};
+    return {residual, 0, scale, defect};
   double rest = constraints;
   for (std::size_t i = 0; i < force_size.size(); ++i)
     rest += std::pow(std::max(force_size[i] - excused[i], 0.0), 2);
   rest = std::sqrt(mesh::total(ranks(), rest));
   if (rest <= strict)
-    return {residual, std::max(tolerance, of_gaps + whole), defect};
+    return {residual, std::max(tolerance, of_gaps + whole), scale, defect};
   if (residual <= tolerance)
-    return {rest, strict, defect};
-  return {residual, tolerance, defect};
+    return {rest, strict, scale, defect};
+  return {residual, tolerance, scale, defect};
 }
 
 /// Lengths whose rounding errors the gaps of each contact have, besides

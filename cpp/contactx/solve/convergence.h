@@ -43,6 +43,7 @@ public:
   {
     double residual;  ///< its norm
     double tolerance; ///< bound of the residual
+    double forces;    ///< forces of the problem
     double defect;    ///< the largest difference from a Dirichlet value
   };
 

@@ -452,9 +452,10 @@ bool Loop::compare(double rtol, double atol, std::span<double> b)
   _system->hold(_bodies->held());
   _system->residual(b);
   const auto found = _convergence.compare(b, rtol, atol);
-  _iterate = {found.residual,        found.tolerance,
-              found.defect,          _active_set.num_closed(),
-              _active_set.changes(), _active_set.is_frozen()};
+  _iterate = {
+      found.residual,         found.tolerance,          found.forces,
+      found.defect,           _active_set.num_closed(), _active_set.changes(),
+      _active_set.is_frozen()};
   double size = 0;
   for (const double u : _system->bulk()->displacements())
     size = std::max(size, std::abs(u));

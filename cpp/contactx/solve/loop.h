@@ -33,6 +33,7 @@ struct Iterate
 {
   double residual = 0;     ///< norm of the residual
   double tolerance = 0;    ///< bound of the residual
+  double forces = 0;       ///< forces that the bound is relative to
   double defect = 0;       ///< largest difference from a Dirichlet value
   std::int64_t closed = 0; ///< slave nodes in contact
   Changes changes{};       ///< of the last update

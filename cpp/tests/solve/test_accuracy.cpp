@@ -13,13 +13,13 @@ using solve::Accuracy;
 
 namespace
 {
-constexpr double tolerance = 1e-12;
+constexpr double tolerance = 1e-12, forces = 0.2;
 
 /// What the next solve may leave.
 double target(Accuracy& accuracy, double residual, double changing,
               bool has_cycled = false)
 {
-  accuracy.set(residual, tolerance, changing, has_cycled);
+  accuracy.set(residual, tolerance, changing, forces, has_cycled);
   return accuracy.target();
 }
 
@@ -27,12 +27,11 @@ TEST(Accuracy, IsAPartOfTheChangesOfTheActiveSet)
 {
   Accuracy accuracy(false);
   EXPECT_EQ(accuracy.target(), 0);
-  // The first two solves of a step are finer
-  for (int k = 0; k < 2; ++k)
+  // The first solve of a step is finer
+  for (const double changing : {0.05, 0.9})
   {
     accuracy.begin_step();
-    EXPECT_NEAR(target(accuracy, 2, 0.05), 9e-3, 1e-15);
-    EXPECT_NEAR(target(accuracy, 2, 0.9), 1.8e-2, 1e-15);
+    EXPECT_NEAR(target(accuracy, 2, changing), 6e-4, 1e-17);
   }
   EXPECT_NEAR(target(accuracy, 2, 1e-7), 6e-6, 1e-18);
   EXPECT_NEAR(target(accuracy, 2, 0.05), 3e-2, 1e-15);
@@ -47,8 +46,21 @@ TEST(Accuracy, IsThatOfExactSolvesInTheFirstIterateOfAPath)
   {
     accuracy.begin_step();
     EXPECT_NEAR(target(accuracy, 2, changing), 6e-11, 1e-24);
-    EXPECT_NEAR(target(accuracy, 2, 0.05), 9e-3, 1e-15);
     EXPECT_NEAR(target(accuracy, 2, 0.05), 3e-2, 1e-15);
+  }
+}
+
+TEST(Accuracy, OfFrictionIsAPartOfTheForces)
+{
+  for (const bool has_path : {false, true})
+  {
+    Accuracy accuracy(has_path);
+    target(accuracy, 20, 0.9);
+    EXPECT_NEAR(target(accuracy, 20, 0.9), has_path ? 0.3 * forces : 0.6,
+                1e-15);
+    // Of an active set that has converged the residual's square tells
+    target(accuracy, 20, 0);
+    EXPECT_NEAR(target(accuracy, 20, 0), 0.6, 1e-15);
   }
 }
 
