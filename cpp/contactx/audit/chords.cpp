@@ -6,6 +6,7 @@
 #include "../geometry/closest_point.h"
 #include "../geometry/gather.h"
 #include "../geometry/smooth.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "../text.h"
 #include "passed_nodes.h"
@@ -27,8 +28,6 @@ namespace
 constexpr double chord_ratio_max = 0.4;
 /// Error of the patches over the change of gaps by chords
 constexpr double patch_error_fraction = 0.1;
-/// Change of a gap, over the sagitta, that is round-off
-constexpr double sagitta_rel_tol = 1e-6;
 
 /// Rise of the edge between two nodes of a facet, see geometry::rise_over.
 template <class F>
@@ -260,7 +259,7 @@ Changes changes(const contact::Contact& contact, const Sides& sides)
 double Chords::ratio() const
 {
   const double change = scatter + mean * turn;
-  return change > sagitta_rel_tol * sagitta ? change / pressed : 0;
+  return change > math::negligible_part * sagitta ? change / pressed : 0;
 }
 
 bool Chords::is_coarse() const { return ratio() > chord_ratio_max; }
@@ -306,7 +305,7 @@ std::optional<Chords> contactx::audit::chords(mesh::Halo& halo,
   {
     const double off = found.off[i], change = std::abs(off);
     // What was counted as none is not kept from touching
-    const bool is_hidden = change > sagitta_rel_tol * found.sagitta
+    const bool is_hidden = change > math::negligible_part * found.sagitta
                            and state.gap[i] + contact.adjusted()[i]
                                    < off - patch_error_fraction * change;
     which[i] = not contact.is_left_out()[i]

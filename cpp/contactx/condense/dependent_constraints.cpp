@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "dependent_constraints.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,8 +12,6 @@ using namespace contactx::condense;
 
 namespace
 {
-/// Largest difference of master weights, which are of order one, by round-off
-constexpr double weight_tol = 1e-8;
 
 using Line = std::vector<std::pair<std::int32_t, double>>;
 
@@ -43,7 +42,7 @@ bool is_transpose(const Triplets& left, const Triplets& right,
     read(b, of_right[dof], right.columns, right.values);
     for (std::size_t i = 0; i < a.size(); ++i)
       if (a[i].first != b[i].first
-          or not(std::abs(a[i].second - b[i].second) <= weight_tol))
+          or not(std::abs(a[i].second - b[i].second) <= math::equal_rel_tol))
         return false;
   }
   return true;

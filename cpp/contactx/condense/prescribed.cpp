@@ -16,9 +16,6 @@ using Eigen::Matrix3d;
 
 namespace
 {
-/// Least determinant of D_pp over the area that has an inverse
-constexpr double determinant_min = 1e-8;
-
 /// Inverts D_pp over the area, zero elsewhere; false where it is singular.
 /// Matrices of fewer multipliers have zeros behind them.
 bool inverted(const Matrix3d& D, const std::array<bool, 3>& p, Matrix3d& G)
@@ -29,7 +26,7 @@ bool inverted(const Matrix3d& D, const std::array<bool, 3>& p, Matrix3d& G)
       if (p[i] and p[j])
         G(i, j) = D(i, j);
   const Eigen::PartialPivLU<Matrix3d> factors(G);
-  if (std::abs(factors.determinant()) < determinant_min)
+  if (std::abs(factors.determinant()) < math::equal_rel_tol)
     return false;
   G = factors.inverse();
   for (int i = 0; i < 3; ++i)
@@ -38,8 +35,6 @@ bool inverted(const Matrix3d& D, const std::array<bool, 3>& p, Matrix3d& G)
   return true;
 }
 
-/// Least diagonal entry, over the area, of a pivot
-constexpr double pivot_min = 1e-6;
 /// Chooses which multipliers the law gives, of those that may: the others stay
 /// with no more than rounding errors in the law of those that neither give nor
 /// stay. False where there are more.
@@ -51,7 +46,7 @@ bool choose(Matrix3d D, std::array<bool, 3>& gives, std::array<bool, 3>& stays)
   {
     int pivot = -1;
     for (int i = 0; i < 3; ++i)
-      if (stays[i] and std::abs(D(i, i)) > pivot_min
+      if (stays[i] and std::abs(D(i, i)) > math::negligible_part
           and (pivot < 0 or std::abs(D(i, i)) > std::abs(D(pivot, pivot))))
         pivot = i;
     if (pivot < 0)

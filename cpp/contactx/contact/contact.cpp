@@ -17,15 +17,9 @@ using namespace contactx::contact;
 
 namespace
 {
-// Fraction of the relative displacement along the normal that Dirichlet
-// conditions leave free, below which a pair stays open
-constexpr double immobile_fraction = 1e-8;
 // The same of an axis, below which there is no friction along it: a projection
 // over an open gap on a tilted facet is not exactly in a plane of symmetry
 constexpr double mobile_fraction_min = 0.05;
-
-// Depth inside an obstacle, over the size of the slave surface, that is refused
-constexpr double inside_depth_min = 1e-9;
 
 std::string_view name_of(Sliding sliding)
 {
@@ -384,7 +378,8 @@ std::vector<std::int32_t> Contact::constrained_inside(std::span<const double> x)
       = std::ranges::max(mesh::extent(_halo->ranks(), at, gdim()));
   std::vector<std::int32_t> nodes;
   for (std::size_t i = 0; i < gap.size(); ++i)
-    if (_nodes->immobile[i] and gap[i] - _offset[i] < -inside_depth_min * size)
+    if (_nodes->immobile[i]
+        and gap[i] - _offset[i] < -math::equal_rel_tol * size)
       nodes.push_back(_slaves->owned()[i]);
   return nodes;
 }
@@ -439,7 +434,8 @@ void Contact::find_immobile()
   const Mobility found = _master->mobility(_free);
   const std::vector<std::int8_t> paired = _master->paired();
   for (std::size_t i = 0; i < paired.size(); ++i)
-    _nodes->immobile[i] = paired[i] and found.normal[i] < immobile_fraction;
+    // Dirichlet conditions leave nothing of the motion along the normal free
+    _nodes->immobile[i] = paired[i] and found.normal[i] < math::equal_rel_tol;
   for (std::size_t k = 0; k < _nodes->mobile.size(); ++k)
     _nodes->mobile[k] = found.each[k] < mobile_fraction_min ? 0 : 1;
 }

@@ -3,14 +3,11 @@
 
 #pragma once
 
+#include "../math/scales.h"
 #include "projection_plane.h"
 
 namespace contactx::geometry
 {
-/// @brief Cross product of successive edges of a polygon, over the largest one,
-/// that is round-off.
-inline constexpr double turn_round_off = 1e-9;
-
 /// @brief Convex part of a plane that two facets share: an interval, or a
 /// polygon traversed counterclockwise.
 template <int D>
@@ -79,7 +76,8 @@ bool is_convex(const Flat<F>& r)
       most = std::max(most, turn);
     }
     // Three nodes on a line are no fold
-    return std::min(-least, most) <= turn_round_off * std::max(-least, most);
+    return std::min(-least, most)
+           <= math::equal_rel_tol * std::max(-least, most);
   }
   return true;
 }
@@ -137,7 +135,7 @@ private:
 
   bool is_rounding(int corner) const
   {
-    return _turn[corner] < 0 and _turn[corner] >= -turn_round_off * _most;
+    return _turn[corner] < 0 and _turn[corner] >= -math::equal_rel_tol * _most;
   }
 
   bool is_shorter(int i, int j, bool or_equal) const

@@ -10,8 +10,6 @@ using namespace contactx::geometry;
 
 namespace
 {
-/// Sine of the angle between planes below which they are parallel
-constexpr double parallel_sine = 1e-6;
 
 using Planes = std::span<const Vector<3>>;
 
@@ -25,7 +23,7 @@ bool set_dual(Planes normal, Meeting& at)
   else if (at.count == 2)
   {
     const double cosine = dot(n(0), n(1)), square = 1 - cosine * cosine;
-    if (square < parallel_sine * parallel_sine)
+    if (square < math::negligible_part * math::negligible_part)
       return false;
     at.dual[0] = (1 / square) * (n(0) - cosine * n(1));
     at.dual[1] = (1 / square) * (n(1) - cosine * n(0));
@@ -33,7 +31,7 @@ bool set_dual(Planes normal, Meeting& at)
   else
   {
     const double volume = dot(n(0), cross(n(1), n(2)));
-    if (std::abs(volume) < parallel_sine)
+    if (std::abs(volume) < math::negligible_part)
       return false;
     for (int i = 0; i < 3; ++i)
       at.dual[i] = (1 / volume) * cross(n((i + 1) % 3), n((i + 2) % 3));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "rigid_motion.h"
+#include "../math/scales.h"
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -15,10 +16,6 @@ using Eigen::Matrix3d;
 /// Correlation of the turned start with the end up to which the surface has not
 /// moved like a rigid body: no rotation fits all of its parts
 constexpr double correlation_min = 0.5;
-
-/// Difference of the correlations of two rotations up to which the best one is
-/// not unique: nodes on a line may be turned around it
-constexpr double correlation_gap_min = 1e-10;
 
 /// Rotation in the plane: of its angle the sums of dot and cross products are
 /// cosine and sine.
@@ -45,7 +42,7 @@ Matrix3d space_rotation(const Matrix3d& h, double scale)
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> found(n / scale);
   const Eigen::Vector4d& values = found.eigenvalues();
   if (!(found.info() == Eigen::Success and values[3] > correlation_min
-        and values[3] - values[2] > correlation_gap_min))
+        and values[3] - values[2] > math::equal_rel_tol))
     return Matrix3d::Identity();
   return Eigen::Quaterniond(found.eigenvectors().col(3)).toRotationMatrix();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "law.h"
+#include "../math/scales.h"
 #include "../text.h"
 #include "coulomb.h"
 #include "slip_history.h"
@@ -17,10 +18,6 @@ using contactx::law::NodeState;
 
 namespace
 {
-// Part of the largest pressure within which the friction of a node that slips
-// is its bound: what Newton's method leaves at the end of a step, which starts
-// the next one, and linear solves within it
-constexpr double bound_rel_tol = 1e-6;
 // Growth of the largest trial friction of a reversal after each cycle of the
 // active set
 constexpr double reach_growth = 1e3;
@@ -46,7 +43,10 @@ std::vector<double> closable_gaps(const NodeState& nodes)
 /// Part of the bound on friction that a node which slips may fall short of.
 double edge(double pressure, double highest)
 {
-  return pressure > 0 ? std::min(bound_rel_tol * highest / pressure, 0.5) : 0.5;
+  // What Newton's method leaves at the end of a step, which starts the next one
+  return pressure > 0
+             ? std::min(math::negligible_part * highest / pressure, 0.5)
+             : 0.5;
 }
 
 /// Whether the trial friction of a node exceeds a bound.

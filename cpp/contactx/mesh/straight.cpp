@@ -3,6 +3,7 @@
 
 #include "straight.h"
 #include "../check.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include "../text.h"
 #include "extent.h"
@@ -16,17 +17,11 @@ using namespace contactx::mesh;
 
 namespace
 {
-/// Distance from the straight facet, over its size, up to which it is a mesh
-/// generator's round-off
-constexpr double straight_rel_tol = 1e-6;
-
 /// Whether each point of a cell is on each facet: functions of other vertices
 /// are zero there.
 std::vector<std::vector<std::size_t>>
 points_of_facets(CellType cell, std::span<const double> shape)
 {
-  // Sum of shape functions that vanish on a facet
-  constexpr double shape_tol = 1e-10;
   const std::size_t num = mesh::num_vertices(cell);
   std::vector<std::vector<std::size_t>> points;
   for (const std::vector<int>& own : mesh::facet_vertices(cell))
@@ -38,7 +33,7 @@ points_of_facets(CellType cell, std::span<const double> shape)
       for (std::size_t v = 0; v < num; ++v)
         if (std::ranges::find(own, static_cast<int>(v)) == own.end())
           inside += std::abs(shape[num * i + v]);
-      if (inside < shape_tol)
+      if (inside < math::equal_rel_tol)
         points.back().push_back(i);
     }
   }
@@ -119,7 +114,7 @@ void contactx::mesh::check_straight(Ranks& ranks, const std::string& name,
               = deviation(geometry, geometry[of[f]], facets[local[f]], shape,
                           mesh::num_vertices(cells.type));
           most = std::max(most, found.away);
-          if (not(found.away > straight_rel_tol * found.size))
+          if (not(found.away > math::negligible_part * found.size))
             continue;
           ++count;
           first = std::min(first, found.at);

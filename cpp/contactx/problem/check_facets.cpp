@@ -3,6 +3,7 @@
 
 #include "check_facets.h"
 #include "../geometry/middle.h"
+#include "../math/scales.h"
 #include "../mesh/extent.h"
 #include "../mesh/found_nodes.h"
 #include "../search/records.h"
@@ -16,10 +17,6 @@ using namespace contactx::problem;
 
 namespace
 {
-/// Least length or area of a facet, over its size or the surface's
-constexpr double degenerate_rel_tol = 1e-10;
-/// Length of a sum of facets' normals, over that of all, that cancel
-constexpr double folded_normal_max = 1e-6;
 
 bool is_degenerate(std::span<const std::int32_t> nodes,
                    std::span<const double> x, int gdim, double smallest)
@@ -39,7 +36,7 @@ bool is_degenerate(std::span<const std::int32_t> nodes,
   const Vector<3> mean = normals.mean();
   // Compared with size^(gdim - 1), what the normal of a well-shaped facet has
   const double wanted
-      = degenerate_rel_tol * (gdim == 2 ? size : size * size) * norm(mean);
+      = math::equal_rel_tol * (gdim == 2 ? size : size * size) * norm(mean);
   bool is_turned = false;
   for (int i = 0; i < normals.size; ++i)
     is_turned = is_turned or dot(normals.normal[i], mean) <= wanted;
@@ -67,7 +64,7 @@ void contactx::problem::check_facets(const mesh::Halo& halo,
   std::vector<Place> first;
   for (std::int32_t f = 0; f < facets.size(); ++f)
   {
-    if (not is_degenerate(facets[f], x, gdim, degenerate_rel_tol * length))
+    if (not is_degenerate(facets[f], x, gdim, math::equal_rel_tol * length))
       continue;
     ++count;
     search::FacetKey key;
@@ -118,7 +115,7 @@ void contactx::problem::check_folds(const mesh::Halo& halo,
   }
   std::vector<std::int32_t> bad;
   for (std::size_t i = 0; i < slaves.owned().size(); ++i)
-    if (norm(sums[i]) <= folded_normal_max * sizes[i])
+    if (norm(sums[i]) <= math::negligible_part * sizes[i])
       bad.push_back(slaves.owned()[i]);
   const mesh::FoundNodes found = mesh::found_nodes(halo, bad, x);
   if (found.count == 0)

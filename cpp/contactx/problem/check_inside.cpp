@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "check_inside.h"
+#include "../math/scales.h"
 #include "../mesh/hull.h"
 #include "../search/box_tree.h"
 #include <algorithm>
@@ -14,8 +15,6 @@ using namespace contactx::problem;
 
 namespace
 {
-/// Depth inside a body, over the size of a cell or of the body
-constexpr double inside_rel_tol = 1e-8;
 /// Points of one search
 constexpr std::int64_t points_per_search = 256;
 
@@ -50,7 +49,7 @@ public:
   /// Whether a box is in one of others.
   bool is_in(std::size_t body, const Boxes& others, std::size_t other) const
   {
-    const double room = inside_rel_tol * others.size(other);
+    const double room = math::equal_rel_tol * others.size(other);
     for (int k = 0; k < _gdim; ++k)
       if (not(low(body, k) >= others.low(other, k) - room
               and high(body, k) <= others.high(other, k) + room))
@@ -86,7 +85,7 @@ public:
                      is_in = is_in
                              or _hull.contains(point, nodes(_mesh, _cells[i]),
                                                _mesh.halo->reference(),
-                                               inside_rel_tol);
+                                               math::equal_rel_tol);
                    });
     return is_in;
   }
@@ -158,7 +157,7 @@ bool lies_inside(const mesh::Mesh& mesh, std::int64_t inner, std::int64_t outer,
 {
   mesh::Ranks& ranks = mesh.halo->ranks();
   const std::vector<Vector<3>> points = points_of(mesh, inner);
-  BodyCells cells(mesh, outer, inside_rel_tol * size);
+  BodyCells cells(mesh, outer, math::equal_rel_tol * size);
   // A few at a time, from everywhere: bodies that are not inside show it soon
   const std::int64_t looks
       = (mesh::total(ranks, std::ssize(points)) + points_per_search - 1)
@@ -237,7 +236,7 @@ void contactx::problem::check_outside(const mesh::Mesh& mesh,
   ranks.reduce(std::span(highest), mesh::Reduction::largest);
   for (std::size_t b = 0; b < names.size(); ++b)
   {
-    if (not(highest[b] <= inside_rel_tol * boxes.size(b)))
+    if (not(highest[b] <= math::equal_rel_tol * boxes.size(b)))
       continue;
     std::vector<double> level;
     ranks.agree(
@@ -256,8 +255,8 @@ void contactx::problem::check_outside(const mesh::Mesh& mesh,
     size = mesh::largest(ranks, size);
     // A body that touches the surface from within has nodes at zero
     const bool is_within = std::ranges::all_of(
-        level,
-        [room = inside_rel_tol * size](double value) { return value <= room; });
+        level, [room = math::equal_rel_tol * size](double value)
+        { return value <= room; });
     if (mesh::everywhere(ranks, is_within))
       throw std::invalid_argument(
           "the body of the slave surface " + name

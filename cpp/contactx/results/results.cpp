@@ -3,6 +3,7 @@
 
 #include "results.h"
 #include "../check.h"
+#include "../math/scales.h"
 #include "transfer.h"
 #include <algorithm>
 #include <array>
@@ -18,9 +19,6 @@ using namespace contactx::results;
 namespace
 {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
-/// Relative tolerance in which a weight is a multiple of the radius
-constexpr double weight_tolerance = 1e-10;
 
 /// Whether a weight is 2 pi r, or another multiple of a radius that varies.
 bool is_circumference(const Contact& contact)
@@ -49,11 +47,12 @@ bool is_circumference(const Contact& contact)
   const double factor = largest / high;
   bool is_multiple = true;
   for (std::size_t i = 0; i < own.size(); ++i)
-    if (std::abs(own[i] - factor * radius[i]) > weight_tolerance * largest)
+    if (std::abs(own[i] - factor * radius[i]) > math::equal_rel_tol * largest)
       is_multiple = false;
-  const bool varies = high + low > weight_tolerance * high;
+  const bool varies = high + low > math::equal_rel_tol * high;
   const double circle = 2 * std::numbers::pi;
-  const bool is_full = std::abs(factor - circle) <= weight_tolerance * factor;
+  const bool is_full
+      = std::abs(factor - circle) <= math::equal_rel_tol * factor;
   return mesh::everywhere(halo.ranks(), is_multiple) and (varies or is_full);
 }
 

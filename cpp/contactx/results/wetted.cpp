@@ -4,6 +4,7 @@
 #include "wetted.h"
 #include "../check.h"
 #include "../contact/deformable_master.h"
+#include "../math/scales.h"
 #include "../search/surface_probe.h"
 #include "transfer.h"
 #include <algorithm>
@@ -19,9 +20,6 @@ namespace
 /// Part of what is in front of a master's node that must be wetted: not one
 /// half, which round-off would decide where meshes match
 constexpr double wetted_part_min = 0.45;
-
-/// Local coordinate beyond a surface's edge that still counts as on it
-constexpr double edge_tolerance = 1e-6;
 
 /// A fluid on the nodes of this rank.
 class Fluid
@@ -166,7 +164,8 @@ public:
                         0, search::Displacements{along, none});
     std::vector<double> parts(_halo->num_owned(), NAN);
     for (std::size_t i = 0; i < _nodes.size(); ++i)
-      if (not std::isnan(seen.gap[i]) and seen.margin[i] > -edge_tolerance)
+      if (not std::isnan(seen.gap[i])
+          and seen.margin[i] > -math::negligible_part)
         parts[_nodes[i]] = seen.displacement[i];
     return parts;
   }

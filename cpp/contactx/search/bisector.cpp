@@ -3,6 +3,7 @@
 
 #include "bisector.h"
 #include "../geometry/shape.h"
+#include "../math/scales.h"
 #include "select.h"
 #include <cmath>
 
@@ -12,12 +13,6 @@ using geometry::Segment;
 
 namespace
 {
-/// Difference of heights, over the facet's size, within the solver's tolerance
-constexpr double height_rel_tol = 1e-8;
-
-/// Difference of unit normals up to which facets are parallel
-constexpr double equal_normal_tol = 1e-6;
-
 /// Cosine of the largest angle between successive facets of a curve
 constexpr double curve_cosine_min = 0.7;
 } // namespace
@@ -41,7 +36,7 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
       [&](std::int32_t f)
       {
         const auto r = extended(surface, f, x, p);
-        if (!r or !(std::abs(r->gap - q.gap) <= height_rel_tol * q.size))
+        if (!r or !(std::abs(r->gap - q.gap) <= math::equal_rel_tol * q.size))
           return;
         first = first < 0 ? f : first;
         ++count;
@@ -50,7 +45,7 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
   if (count != 2 or !(dot(sum, sum) > 2 + 2 * curve_cosine_min))
     return std::nullopt;
   const Vector<3> n = (1 / norm(sum)) * sum;
-  if (norm(n - q.normal) <= equal_normal_tol)
+  if (norm(n - q.normal) <= math::negligible_part)
     return std::nullopt;
 
   // Of the first facet, whichever of them round-off has led to

@@ -152,7 +152,7 @@ Found DistributedSurface::find(std::span<const double> x,
   const RankBoxes others(_halo->ranks(), own(), x, gdim);
   std::vector<double> bound = best.bound;
   for (double& b : bound)
-    b *= 1 + box_slack;
+    b *= 1 + math::equal_rel_tol;
   RankBoxes::Near near = others.from_points(points, normals, bound);
   const std::size_t m = near.ranks.size();
   // First the nearest rank, then all that may still have something nearer
@@ -175,7 +175,8 @@ Found DistributedSurface::find(std::span<const double> x,
     for (std::size_t j = 0; j < m; ++j)
     {
       const double distance = near.distance[i * m + j];
-      if (distance < infinity and distance <= best.bound[i] * (1 + box_slack))
+      if (distance < infinity
+          and distance <= best.bound[i] * (1 + math::equal_rel_tol))
         wanted[near.ranks[j]].push_back(i);
     }
   ask(x, points, normals, wanted, best);

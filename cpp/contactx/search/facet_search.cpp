@@ -5,6 +5,7 @@
 #include "../check.h"
 #include "../geometry/gather.h"
 #include "../geometry/segment.h"
+#include "../math/scales.h"
 
 using namespace contactx;
 using namespace contactx::search;
@@ -13,10 +14,6 @@ namespace
 {
 /// Cosine of the angle at which a master facet counts as upright
 constexpr double upright_cosine = 0.1;
-
-/// Overlap in excess of the facet's area, over it, from which on several layers
-/// cover it
-constexpr double layer_overlap_rel_tol = 1e-6;
 
 struct SharedFacet
 {
@@ -101,7 +98,7 @@ void keep_nearest(std::vector<SharedFacet>& found, double area,
   double total = 0;
   for (const SharedFacet& f : found)
     total += f.area;
-  if (total <= (1 + layer_overlap_rel_tol) * area)
+  if (total <= (1 + math::negligible_part) * area)
     return;
   const auto share_a_node = [&master](std::int32_t a, std::int32_t b)
   {
@@ -141,7 +138,7 @@ void keep_nearest(std::vector<SharedFacet>& found, double area,
     for (const SharedFacet& f : layer)
       more += f.area;
     const bool fits
-        = kept.empty() or total + more <= (1 + layer_overlap_rel_tol) * area;
+        = kept.empty() or total + more <= (1 + math::negligible_part) * area;
     if (fits)
       total += more;
     auto& side = fits ? kept : left;

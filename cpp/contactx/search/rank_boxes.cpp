@@ -5,6 +5,7 @@
 #include "../geometry/facets.h"
 #include "../geometry/middle.h"
 #include "../geometry/shape.h"
+#include "../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,7 +62,7 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   // angle of the axis
   const double sine
       = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : no_cone;
-  return {axis, sine + box_slack};
+  return {axis, sine + math::equal_rel_tol};
 }
 } // namespace
 
@@ -99,7 +100,7 @@ RankBoxes::RankBoxes(mesh::Ranks& ranks, const geometry::FacetList& own,
   _boxes = mesh::gathered<double>(ranks, box);
   for (int i = 0; i < size(); ++i)
     for (const double c : row(i).subspan(1, 2 * g))
-      _slack = std::max(_slack, box_slack * std::abs(c));
+      _slack = std::max(_slack, math::equal_rel_tol * std::abs(c));
 }
 
 int RankBoxes::size() const

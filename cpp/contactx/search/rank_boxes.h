@@ -9,10 +9,6 @@
 
 namespace contactx::search
 {
-/// @brief Widening of boxes, over their coordinates, of the sines of cones and
-/// of distances, so that round-off hides no rank.
-inline constexpr double box_slack = 1e-9;
-
 /// @brief Ranks that have facets within reach, by boxes of the ranks' facets,
 /// and cones around their normals.
 class RankBoxes

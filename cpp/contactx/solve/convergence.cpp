@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "convergence.h"
+#include "../math/scales.h"
 #include "../mesh/extent.h"
 #include "free_bodies.h"
 #include <algorithm>
@@ -21,11 +22,6 @@ constexpr double runaway_ratio = 1e3;
 /// Residual, over the stiffness times the scene's size, below which it may be
 /// the round-off of forces that cancel
 constexpr double cancelling_force_max = 1e-8;
-/// Largest residual that round-off may excuse, over the forces of the problem
-constexpr double excused_force_max = 1e-6;
-/// Forces of the problem over the first residual, at least: that of prescribed
-/// displacements is large where a stiff body moves as a whole
-constexpr double first_residual_fraction = 1e-6;
 
 double square(double value) { return value * value; }
 
@@ -199,7 +195,7 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
     // values asks for says little: a stiff body that moves as a whole asks for
     // much and gets nothing
     _scales.force = std::max(
-        {scale, first_residual_fraction * residual, scale_of_accepted()});
+        {scale, math::negligible_part * residual, scale_of_accepted()});
   scale = std::max(scale, *_scales.force);
 
   // A gap is a difference of positions, the forces of a stiff body sums of
@@ -223,9 +219,9 @@ Convergence::Result Convergence::compare_forces(std::span<const double> b,
   std::vector<double> excused(u.size());
   for (std::size_t i = 0; i < u.size(); ++i)
     excused[i] = math::sum_round_off * _stiffness[i] * (u[i] + _cell_size[i]);
-  double whole = std::min(norm(excused), excused_force_max * scale);
+  double whole = std::min(norm(excused), math::negligible_part * scale);
   for (double& error : excused)
-    error = std::min(error, excused_force_max * scale);
+    error = std::min(error, math::negligible_part * scale);
 
   const double strict = std::max({rtol * scale, atol, of_gaps});
   const double tolerance = std::max({rtol * scale, atol, of_gaps + whole});
@@ -342,7 +338,7 @@ std::vector<double> Convergence::errors() const
 
 double Convergence::scale_of_balance()
 {
-  return std::max(scale(), norm(errors()) / balance_rel_tol);
+  return std::max(scale(), norm(errors()) / math::negligible_part);
 }
 
 /// Sizes of the displacements of the owned nodes.

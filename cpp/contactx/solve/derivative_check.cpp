@@ -16,8 +16,6 @@ namespace
 {
 /// Round-off of a force, over the terms of its sum
 constexpr double force_round_off = 4 * math::sum_round_off;
-/// Product with a rigid motion, over the diagonal's, that is round-off
-constexpr double rigid_product_rel_tol = 1e-6;
 /// Displacements of the quotients over the size of the scene
 constexpr std::array increment_sizes{1e-4, 1e-6, 1e-8};
 } // namespace
@@ -80,7 +78,7 @@ double contactx::solve::derivative_error(System& system,
         const std::array terms{
             product[i] - quotient[i],
             force_round_off * std::abs(u[i]) * diagonal[i] / size, product[i],
-            quotient[i], rigid_product_rel_tol * direction_of[i] * diagonal[i]};
+            quotient[i], math::negligible_part * direction_of[i] * diagonal[i]};
         for (std::size_t k = 0; k < terms.size(); ++k)
           squares[k] += terms[k] * terms[k];
       }

@@ -29,10 +29,6 @@ namespace
 // Force along free modes, over the residual, up to which the step has no rigid
 // motion
 constexpr double idle_force_max = 1e-3;
-// Stiffness of springs over the bulk's
-constexpr double spring_ratio = 1e-6;
-// Resistance of closed nodes to a motion, over the largest, that is rounding
-constexpr double no_resistance = 1e-12;
 // Resistance of closed nodes to a motion, over the largest, below which it is
 // that of the corners between facets: squares of the sines of their angles
 constexpr double corner_resistance = 1e-3;
@@ -43,13 +39,10 @@ constexpr double run_fraction = 0.1;
 // supports may take
 constexpr double held_force_max = 1e-2;
 // Force along free modes, over that of the loads, that contact forces must
-// leave where they cannot balance it, and work of a force over the largest that
-// it may have, below which it has none
-constexpr double unsupported_rel_tol = 1e-3, work_rel_tol = 1e-9;
+// leave where they cannot balance it
+constexpr double unsupported_rel_tol = 1e-3;
 // Forces that are tried: in 3D a cone has more of them than its edges
 constexpr int max_rays = 200;
-// Velocity of a node, over the largest of a rigid motion, that closes a gap
-constexpr double node_speed_min = 1e-6;
 
 /// Part of a vector along the surface.
 Vector<3> along_surface(const Vector<3>& normal, const Vector<3>& v)
@@ -382,7 +375,7 @@ bool FreeBodies::stabilise(const Forces& forces)
   };
   const std::vector<double> force = checked(forces.residual());
   const std::vector<double> pull = along(x, force, -1);
-  _balanced = balance_rel_tol * forces.scale();
+  _balanced = math::negligible_part * forces.scale();
   const std::vector<Rows> rows = this->rows(x);
   bool closed_any = _begins and close_before_springs(rows, pull);
   if (_begins)
@@ -550,7 +543,7 @@ void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
   // Weak, so that they do not slow down convergence along modes with a small
   // stiffness, as of friction that turns
   for (double& spring : *_springs)
-    spring *= spring_ratio;
+    spring *= math::weak_spring;
 }
 
 /// Remembers where bodies are, to take off what they drift by.
@@ -700,7 +693,7 @@ bool FreeBodies::may_balance(const Forces& forces, double reach) const
   const MatrixXd N = free_basis({}, false).N;
   const VectorXd needed = N.transpose() * math::column(loads);
   // Without loads forces that are as small as rounding balance
-  if (needed.norm() <= balance_rel_tol * forces.scale())
+  if (needed.norm() <= math::negligible_part * forces.scale())
     return true;
   MatrixXd rays(N.cols(), 0);
   VectorXd shares(0), left = needed;
@@ -712,7 +705,7 @@ bool FreeBodies::may_balance(const Forces& forces, double reach) const
     const std::vector<double> force
         = strongest(rows, {motion.data(), std::size_t(motion.size())}, reach);
     const VectorXd ray = N.transpose() * math::column(force);
-    if (not(ray.dot(left) > work_rel_tol * ray.norm() * left.norm()))
+    if (not(ray.dot(left) > math::equal_rel_tol * ray.norm() * left.norm()))
       return false;
     rays.conservativeResize(Eigen::NoChange, rays.cols() + 1);
     rays.rightCols(1) = ray;
@@ -731,7 +724,7 @@ bool FreeBodies::may_balance(const Forces& forces, double reach) const
       // Rays that pull are left out
       Eigen::Index kept = 0;
       for (Eigen::Index i = 0; i < shares.size(); ++i)
-        if (next[i] > 0 or shares[i] > work_rel_tol * shares.maxCoeff())
+        if (next[i] > 0 or shares[i] > math::equal_rel_tol * shares.maxCoeff())
         {
           rays.col(kept) = rays.col(i);
           shares[kept++] = shares[i];
@@ -966,7 +959,7 @@ std::optional<FreeBodies::Escape> FreeBodies::escape(const Forces& forces,
   const std::size_t g = _modes->gdim(), m = _modes->modes_per_body();
   const auto body = _modes->body();
   const std::vector<double> all = forces.residual(), bulk = forces.of_bulk();
-  _balanced = balance_rel_tol * forces.scale();
+  _balanced = math::negligible_part * forces.scale();
   std::vector<std::int8_t> is_driven = driven(along(x, all, -1));
   // Others are pressed from more than one side
   std::vector<double> pressed(_modes->count());
@@ -1061,9 +1054,9 @@ FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
               = bases[b] * by_columns.segment(first[b], bases[b].cols());
       }
   };
-  add_between(-infinity, no_resistance);
+  add_between(-infinity, math::zero_round_off);
   const Eigen::Index num_free = std::ssize(motions);
-  add_between(no_resistance, corner_resistance);
+  add_between(math::zero_round_off, corner_resistance);
   MatrixXd N(bases.size() * _modes->modes_per_body(), motions.size());
   for (std::size_t k = 0; k < motions.size(); ++k)
     N.col(k) = motions[k];
@@ -1102,7 +1095,7 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
       if (status[slave] != law::open or not std::isfinite(gap[slave]))
         continue;
       const double speed = -dot(some.normal[i], some.by(increment, i));
-      if (not(speed > node_speed_min * most))
+      if (not(speed > math::negligible_part * most))
         continue;
       able.slaves.push_back(slave);
       able.times.push_back(std::max(gap[slave], 0.0) / speed);
@@ -1216,7 +1209,7 @@ bool FreeBodies::stick_first(const std::vector<Rows>& rows,
           = along_surface(some.normal[i], some.by(increment, i));
       const double speed = std::sqrt(dot(movement, movement));
       // Slip goes against the traction, also where it has only just begun
-      if (not(dot(cone, movement) > 0 and speed > node_speed_min * most))
+      if (not(dot(cone, movement) > 0 and speed > math::negligible_part * most))
         continue;
       const Vector<3> slip = vector_at(friction_state.slip, slave, g);
       able.slaves.push_back(slave);

@@ -96,10 +96,6 @@ struct Forces
   std::function<double()> scale;
 };
 
-/// @brief Force along a free mode, over the forces of the problem, above which
-/// a body is out of balance.
-inline constexpr double balance_rel_tol = 1e-6;
-
 /// @brief Keeps the Newton step of bodies without enough supports solvable.
 ///
 /// A rigid mode that neither supports nor closed contacts resist is free and

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "coarse_model.h"
+#include "../../math/scales.h"
 #include "multigrid_solver.h"
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ namespace
 // where it acts: of 0.02, 0.05, 0.1 and 0.3 the one with the fewest iterations
 // on slabs of a dam's face
 constexpr double spring_stiffness = 0.1;
-// Relative increase of the diagonal, so that a body that contact alone supports
-// leaves no singular block
-constexpr double diagonal_shift = 1e-6;
 } // namespace
 
 CoarseModel::CoarseModel(const Numbering& numbering, MatrixPtr stiffness,
@@ -76,7 +74,7 @@ CoarseModel::of(const Numbering& numbering, const DofBlock& soft,
                           successive(layout.first_column, layout.num_columns));
   std::vector<double> diagonal = algebra.diagonal(*coarse->stiffness);
   for (double& value : diagonal)
-    value *= 1 + diagonal_shift;
+    value *= 1 + math::weak_spring;
   algebra.set_diagonal(*coarse->stiffness, diagonal);
   return std::unique_ptr<CoarseModel>(
       new CoarseModel(numbering, std::move(coarse->stiffness), std::move(P),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "dof_block.h"
+#include "../../math/scales.h"
 #include <cmath>
 
 using namespace contactx;
@@ -9,10 +10,6 @@ using namespace contactx::condense;
 
 namespace
 {
-// Relative difference, in the Frobenius norm, below which two matrices are
-// equal but for round-off
-constexpr double equal_tol = 1e-12;
-
 /// Whether L = R^T but for round-off, or both are empty
 bool is_transposed(Algebra& algebra, const Matrix& L, const Matrix& R)
 {
@@ -21,7 +18,7 @@ bool is_transposed(Algebra& algebra, const Matrix& L, const Matrix& R)
   const double size = std::max(algebra.norm(L), algebra.norm(R));
   const MatrixPtr difference = algebra.transpose(R);
   algebra.add(*difference, -1, L);
-  return algebra.norm(*difference) <= equal_tol * size;
+  return algebra.norm(*difference) <= math::zero_round_off * size;
 }
 } // namespace
 

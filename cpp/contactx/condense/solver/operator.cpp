@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "operator.h"
+#include "../../math/scales.h"
 #include "../master_springs.h"
 #include "../multigrid.h"
 #include "../residual_weights.h"
@@ -14,11 +15,6 @@ using namespace contactx::condense;
 
 namespace
 {
-// Diagonal that stands for eliminated displacements, over that of the bulk: so
-// little that what multigrid's coarser levels make of them, which know nothing
-// of their rows, never comes back as a residual. From 1e-2 to 1e-10 iterations
-// are the same; with one they are up to twice as many where nodes stick
-constexpr double stand_in = 1e-6;
 } // namespace
 
 CondensedOperator::CondensedOperator(
@@ -63,7 +59,9 @@ CondensedOperator::CondensedOperator(
   }
   _bulk_diagonal = _algebra.diagonal(*_K);
   for (const std::int32_t dof : eliminated())
-    _diagonal.push_back(stand_in * std::abs(_bulk_diagonal[dof]));
+    // Coarse levels know nothing of the rows of eliminated displacements: what
+    // they make of them must never come back as a residual
+    _diagonal.push_back(math::weak_spring * std::abs(_bulk_diagonal[dof]));
   _some.resize(constrained().size());
   const std::size_t n = _numbering->num_owned();
   for (auto* work : {&_z, &_w, &_work})

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "predictor.h"
+#include "../../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,9 +20,6 @@ constexpr std::size_t num_steps_kept = 4, num_steps_combined = 2;
 // Norm of the residual, relative to the right-hand side, above which a
 // combination is not used
 constexpr double max_residual_fraction = 0.5;
-// Norm of what a product adds to the span of the others, relative to its own,
-// above which it counts as linearly independent
-constexpr double min_independent_fraction = 1e-10;
 // Relative distance of a step's load from the multiples of this one's, up to
 // which loads are proportional
 constexpr double max_load_deviation = 0.1;
@@ -163,7 +161,7 @@ void Predictor::combine(CondensedOperator& K_c, std::span<const double> factors,
       add(vector, -factor, other);
     }
     const double added = norm(ranks, product);
-    if (added <= min_independent_fraction * size)
+    if (added <= math::equal_rel_tol * size)
       continue;
     scale(vector, 1 / added);
     scale(product, 1 / added);

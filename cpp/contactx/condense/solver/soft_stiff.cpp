@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "soft_stiff.h"
+#include "../../math/scales.h"
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +13,6 @@ namespace
 {
 // Krylov vectors, and iterations after which a solve is given up
 constexpr int restart = 120;
-// Difference of a block, as in Tuning, below which it counts as the same: one
-// node that slips where it stuck makes more, and costs iterations
-constexpr double equal_change = 1e-6;
 // Number of last Krylov iterations by whose mean reduction the remaining ones
 // are estimated
 constexpr int rate_window = 10;
@@ -33,8 +31,8 @@ bool BlockFactors::update(MatrixPtr change,
     _algebra.add(*difference, -1, *_change);
     const double size = _algebra.norm(*change);
     const double other = _algebra.norm(*difference);
-    _is_old = other > equal_change * size;
-    if (other <= std::max(max_change, equal_change) * size)
+    _is_old = other > math::negligible_part * size;
+    if (other <= std::max(max_change, math::negligible_part) * size)
       return false;
   }
   _is_old = false;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "self_order.h"
+#include "../../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,9 +15,6 @@ using namespace contactx::search;
 
 namespace
 {
-/// Relative difference of distances that is round-off: the number of a node
-/// decides then
-constexpr double equal_distance_rel_tol = 1e-6;
 /// Ratio of facets' sizes up to which parts are equally fine
 constexpr double equal_size_ratio = 2;
 
@@ -30,7 +28,7 @@ std::int32_t farthest(std::span<const std::int32_t> nodes,
       most = std::max(most, value[node]);
   for (const std::int32_t node : nodes)
     if (value[node] < infinity
-        and value[node] >= (1 - equal_distance_rel_tol) * most)
+        and value[node] >= (1 - math::negligible_part) * most)
       return node;
   return nodes.front();
 }

@@ -3,6 +3,7 @@
 
 #include "self_sight.h"
 #include "../../geometry/facets.h"
+#include "../../math/scales.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,8 +22,6 @@ constexpr double far_side_cosine = 0.5;
 /// Largest distance of the edge of a valley that a node is behind, over its
 /// height: farther away the candidates end, not the valley
 constexpr double valley_distance_ratio = 2;
-/// Gap, over the size of a facet, within round-off and the solver's tolerance
-constexpr double gap_rel_tol = 1e-6;
 
 std::vector<std::int32_t> copy(std::span<const std::int32_t> values)
 {
@@ -118,7 +117,7 @@ bool SelfSight::sees(std::int32_t node, const Vector<3>& normal,
 {
   if (std::ranges::binary_search(_neighbours[node], q.facet))
     return false;
-  const double slack = gap_rel_tol * q.size;
+  const double slack = math::negligible_part * q.size;
   if (q.gap >= 0)
     return dot(normal, q.d) <= slack;
   if (norm(q.d) <= passed_fraction * _thickness[node])
@@ -136,7 +135,8 @@ FoundPlace SelfSight::find(std::int32_t node, double reach,
   const Vector<3> p = vector_at(_x, node, _gdim),
                   normal = vector_at(_normal, node, _gdim);
   const View view{passed_fraction * _thickness[node], _moved,
-                  norm(normal - vector_at(_normal0, node, _gdim)), gap_rel_tol};
+                  norm(normal - vector_at(_normal0, node, _gdim)),
+                  math::negligible_part};
   FoundPlace found = _finder.find(
       _x, p, normal, reach, hint,
       [&](const Projection& q) { return sees(node, normal, q); }, view);
