@@ -27,16 +27,17 @@ inline constexpr double solved_length_tol = 1e-10;
 
 /// @brief Relative difference of values that are equal in exact arithmetic,
 /// such as weights, areas, rigid modes and the times of a rigid motion, up to
-/// which they count as equal. From 1e-10 to 1e-8 nothing depends on it.
+/// which they count as equal. From 1e-10 to 1e-8 no scene of 259 differs.
 inline constexpr double equal_rel_tol = 1e-9;
 
 /// @brief Part of a length, a direction, an area, a speed or a force that makes
 /// no difference: a mesh generator's round-off, and what solvers leave. From
-/// 1e-7 to 1e-5 nothing depends on it.
+/// 1e-7 to 1e-5 no outcome of 259 scenes differs.
 inline constexpr double negligible_part = 1e-6;
 
 /// @brief Stiffness of what stands where nothing resists, over the bulk's: so
-/// little that nothing else feels it. From 1e-8 to 1e-4 nothing depends on it.
+/// little that nothing else feels it. From 1e-8 to 1e-6 iterates are the same,
+/// by 1e-4 bodies that friction holds take three times as many.
 inline constexpr double weak_spring = 1e-6;
 
 /// @brief Whether a value is zero but for round-off.

@@ -293,10 +293,14 @@ bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c,
   if (not is_needed and not is_asked and _failures.multigrid < max_failures)
   {
     // Where bodies can be told apart the other solver is fast: one slow solve
-    // tells enough
+    // tells enough, and in its first digit
     const bool is_mixed = _soft_stiff.tells_apart(*K_c);
-    if (_multigrid.solve(K_c, rhs, v, target))
+    if ((_multigrid_serves or not is_mixed or not is_slow(K_c, rhs, v))
+        and _multigrid.solve(K_c, rhs, v, target))
+    {
+      _multigrid_serves = true;
       return true;
+    }
     _failures.multigrid += is_mixed ? max_failures : 1;
   }
   const bool is_solved = _soft_stiff.solve(K_c, rhs, v, target);
@@ -307,6 +311,21 @@ bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c,
   else
     ++_failures.bodies;
   return is_solved;
+}
+
+/// Whether multigrid is slow in the first digit, which it gives else.
+bool CondensedSolver::is_slow(std::shared_ptr<CondensedOperator> K_c, Spans rhs,
+                              std::span<double> v)
+{
+  std::vector<double> found(v.begin(), v.end());
+  _multigrid.prepare(std::move(K_c));
+  if (_multigrid.solve_roughly(rhs, found))
+  {
+    std::ranges::copy(found, v.begin());
+    return false;
+  }
+  _multigrid.reset();
+  return true;
 }
 
 void CondensedSolver::solve_directly(Spans b, std::span<double> x,

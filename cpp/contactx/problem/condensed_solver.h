@@ -80,6 +80,8 @@ private:
   bool solve_condensed(Spans b, std::span<double> x);
   bool iterate(std::shared_ptr<condense::CondensedOperator> K_c, bool is_needed,
                Spans rhs, std::span<double> v, double target);
+  bool is_slow(std::shared_ptr<condense::CondensedOperator> K_c, Spans rhs,
+               std::span<double> v);
   bool iterate_with_fields(Spans rhs, std::span<double> x, double target);
   void solve_directly(Spans b, std::span<double> x, std::string reason);
 
@@ -97,6 +99,8 @@ private:
   // What of the problem was followed
   int _starts = -1, _restores = 0, _number = -1;
   bool _is_predicted = false;
+  // Whether multigrid has solved for bodies that can be told apart
+  bool _multigrid_serves = false;
   // Failures of multigrid, and of the block preconditioner: those of now, and
   // at the start of the step
   struct Failures

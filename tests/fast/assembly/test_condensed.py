@@ -307,6 +307,26 @@ def test_coarse_levels_are_kept_while_few_nodes_open(monkeypatch):
     assert seldom[3] == pytest.approx(often[3], rel=1e-10)
 
 
+@pytest.mark.parametrize("is_slow", [True, False])
+def test_multigrid_is_asked_for_a_digit_where_bodies_differ(is_slow, monkeypatch):
+    """Before the rest, as bodies make blocks of their own where it is slow."""
+    asked, cycles = [], Hierarchy.solve
+
+    def solve(self, b, x, is_symmetric, target, most):
+        asked.append(target / np.linalg.norm(b))
+        if is_slow:
+            return most, core.End.FAILED
+        return cycles(self, b, x, is_symmetric, target, most)
+
+    monkeypatch.setattr(Hierarchy, "solve", solve)
+    scene = Blocks(CellType.tetrahedron, n_upper=4, n_lower=3, stiffness=1e3)
+    problem = scene.problem(scene.contact(), petsc_options={"pc_type": "condensed"})
+    problem.solve()
+    assert asked[0] == pytest.approx(0.1)
+    assert len(asked) == (1 if is_slow else 1 + problem.report.iterations)
+    assert ("multigrid is slow here" in problem.report.by_bodies) == is_slow
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_no_eigenvalue_is_large_where_nodes_stick(method, monkeypatch):
     """Coarse levels must not make residuals of eliminated displacements: up to 4.7 else."""

@@ -13,9 +13,6 @@ namespace
 // Krylov vectors that are kept: with half of them iterations are a tenth more,
 // with all of them a tenth less
 constexpr int restart = 60;
-// Residual of the solve that the Schur complement's mean eigenvalue is found
-// with
-constexpr double probe_rtol = 0.1;
 } // namespace
 
 void FieldSplitSolver::update(std::shared_ptr<CondensedOperator> K_c,
@@ -201,7 +198,7 @@ double FieldSplitSolver::mean_eigenvalue(Span diagonal)
   std::vector<double> forces(n, 0), rhs(n), v(n, 0);
   add_forces(signs, 1, forces);
   _K_c->combine(forces, rhs);
-  _multigrid.solve_roughly(rhs, v, probe_rtol);
+  _multigrid.solve_roughly(rhs, v);
   _K_c->expand(v, _z);
   _algebra.multiply(*_blocks.fu, _z, _rows);
   std::array sums{0.0, 0.0};

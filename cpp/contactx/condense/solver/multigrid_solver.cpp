@@ -93,14 +93,18 @@ bool MultigridSolver::solve_with(std::shared_ptr<CondensedOperator> K_c,
   return false;
 }
 
-void MultigridSolver::solve_roughly(std::span<const double> rhs,
-                                    std::span<double> v, double rtol)
+bool MultigridSolver::solve_roughly(std::span<const double> rhs,
+                                    std::span<double> v)
 {
+  constexpr double rtol = 0.1;
   const double size = norm(_K_c->numbering().ranks(), rhs);
   const int most = static_cast<int>(_tuning.slow_rate * -std::log(rtol));
-  _iterations
-      += _hierarchy->solve(rhs, v, _K_c->is_symmetric(), rtol * size, most)
-             .count;
+  const Iterations done
+      = _hierarchy->solve(rhs, v, _K_c->is_symmetric(), rtol * size, most);
+  _iterations += done.count;
+  if (done.end == Iterations::End::indefinite)
+    std::ranges::fill(v, 0);
+  return done.end != Iterations::End::failed;
 }
 
 void MultigridSolver::reset()

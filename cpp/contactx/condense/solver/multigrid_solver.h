@@ -54,13 +54,12 @@ public:
     _hierarchy->cycle(r, v);
   }
 
-  /// @brief Solve with the matrix prepared for, to a relative residual.
+  /// @brief Solve with the matrix prepared for, to a tenth of the right-hand
+  /// side.
   /// @param[in] rhs Right-hand side.
   /// @param[in,out] v Start of the iterations, then what they have found.
-  /// @param[in] rtol What the residual's norm must fall below, over that of the
-  /// right-hand side.
-  void solve_roughly(std::span<const double> rhs, std::span<double> v,
-                     double rtol);
+  /// @return False where multigrid is slow.
+  bool solve_roughly(std::span<const double> rhs, std::span<double> v);
 
   /// @brief Iterate with `cycle`: again with coarser levels, and then with a
   /// hierarchy, of now if these were older and it did not converge.
