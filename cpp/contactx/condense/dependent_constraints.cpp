@@ -12,7 +12,6 @@ using namespace contactx::condense;
 
 namespace
 {
-
 using Line = std::vector<std::pair<std::int32_t, double>>;
 
 /// Entries of one row, or column, in order

@@ -10,7 +10,6 @@ using namespace contactx::geometry;
 
 namespace
 {
-
 using Planes = std::span<const Vector<3>>;
 
 /// The vectors along which only the distance from one plane changes; false

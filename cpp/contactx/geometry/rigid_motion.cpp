@@ -41,6 +41,7 @@ Matrix3d space_rotation(const Matrix3d& h, double scale)
       turn.transpose(), h.trace();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> found(n / scale);
   const Eigen::Vector4d& values = found.eigenvalues();
+  // Two rotations may be as good: nodes on a line may be turned around it
   if (!(found.info() == Eigen::Success and values[3] > correlation_min
         and values[3] - values[2] > math::equal_rel_tol))
     return Matrix3d::Identity();

@@ -17,7 +17,6 @@ using namespace contactx::problem;
 
 namespace
 {
-
 bool is_degenerate(std::span<const std::int32_t> nodes,
                    std::span<const double> x, int gdim, double smallest)
 {

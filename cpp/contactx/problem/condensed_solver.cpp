@@ -319,6 +319,7 @@ bool CondensedSolver::is_slow(std::shared_ptr<CondensedOperator> K_c, Spans rhs,
 {
   std::vector<double> found(v.begin(), v.end());
   _multigrid.prepare(std::move(K_c));
+  const condense::Timing timing(*_algebra, "Krylov");
   if (_multigrid.solve_roughly(rhs, found))
   {
     std::ranges::copy(found, v.begin());

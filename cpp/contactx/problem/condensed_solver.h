@@ -99,7 +99,8 @@ private:
   // What of the problem was followed
   int _starts = -1, _restores = 0, _number = -1;
   bool _is_predicted = false;
-  // Whether multigrid has solved for bodies that can be told apart
+  // Whether multigrid has solved a system, so that its first digit is not asked
+  // for apart
   bool _multigrid_serves = false;
   // Failures of multigrid, and of the block preconditioner: those of now, and
   // at the start of the step

@@ -62,6 +62,7 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   // angle of the axis
   const double sine
       = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : no_cone;
+  // Wider, as boxes are, so that round-off hides no rank
   return {axis, sine + math::equal_rel_tol};
 }
 } // namespace

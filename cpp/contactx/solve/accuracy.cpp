@@ -11,11 +11,12 @@ namespace
 /// Bounds of the reduction of the residual by an iterate while the active set
 /// changes, relative
 constexpr double next_residual_min = 1e-5, next_residual_max = 0.1;
+/// The upper bound in a step's first iterate. What is left of a prescribed
+/// displacement is large against the forces of contact: it would decide which
+/// nodes close
+constexpr double first_residual_max = 1e-3;
 /// Residual of a linear solve over that of the next iterate
 constexpr double solve_fraction = 0.3;
-/// The same of a step's first solve. What is left of a prescribed displacement
-/// is large against the forces of contact: it would decide which nodes close
-constexpr double first_residual_max = 1e-3;
 /// Residual of the last solves over Newton's tolerance: far less with friction,
 /// as errors must not decide between stick and slip
 constexpr double last_solve_fraction = 0.1, last_solve_fraction_friction = 0.01;

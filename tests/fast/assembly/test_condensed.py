@@ -293,7 +293,7 @@ def test_coarse_levels_are_kept_while_few_nodes_open(monkeypatch):
     for max_change in (0.0, 0.15):
         with tuned(max_change=max_change):
             scene = scenes.HertzSphere(
-                meshes.hertz_sphere(0.02), "finite", petsc_options={"pc_type": "condensed"}
+                meshes.hertz_sphere(0.012), "finite", petsc_options={"pc_type": "condensed"}
             )
         updates.clear()
         scene.problem.solve()
@@ -301,7 +301,7 @@ def test_coarse_levels_are_kept_while_few_nodes_open(monkeypatch):
         found.append((len(updates), report.iterations, report.krylov, scene.contact.force[2]))
     often, seldom = found
     changing = sum(row.status_changes > 0 for row in report.history)
-    assert often[0] == changing > seldom[0] + 1
+    assert often[0] == changing > seldom[0] + 2
     assert seldom[1] == often[1]
     assert seldom[2] <= 1.1 * often[2]
     assert seldom[3] == pytest.approx(often[3], rel=1e-10)

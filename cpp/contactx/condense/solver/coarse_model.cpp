@@ -73,6 +73,7 @@ CoarseModel::of(const Numbering& numbering, const DofBlock& soft,
       = algebra.submatrix(*coarse->prolongation, rows,
                           successive(layout.first_column, layout.num_columns));
   std::vector<double> diagonal = algebra.diagonal(*coarse->stiffness);
+  // A body that contact alone supports leaves no singular block
   for (double& value : diagonal)
     value *= 1 + math::weak_spring;
   algebra.set_diagonal(*coarse->stiffness, diagonal);

@@ -13,10 +13,6 @@
 using namespace contactx;
 using namespace contactx::condense;
 
-namespace
-{
-} // namespace
-
 CondensedOperator::CondensedOperator(
     std::shared_ptr<const Numbering> numbering,
     std::shared_ptr<const Condensation> condensation, Springs springs)

@@ -31,6 +31,7 @@ bool BlockFactors::update(MatrixPtr change,
     _algebra.add(*difference, -1, *_change);
     const double size = _algebra.norm(*change);
     const double other = _algebra.norm(*difference);
+    // One node that slips where it stuck makes more, and costs iterations
     _is_old = other > math::negligible_part * size;
     if (other <= std::max(max_change, math::negligible_part) * size)
       return false;
