@@ -44,7 +44,7 @@ class Outcome:
         steps: Accepted steps.
         iterations: Linear solves of all accepted steps.
         discarded: Those of attempts that failed, and were damped or cut then.
-        seconds: CPU time.
+        seconds: CPU time of the steps, without making the scene and judging it.
         note: What is worth knowing, though it is not wrong.
     """
 
@@ -73,7 +73,6 @@ def run(scene: Scene) -> Outcome:
     outcome = Outcome(scene.family, scene.value, scene.variant)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        begin = time.process_time()
         refusal = ""
         try:
             _solve(scene, outcome)
@@ -85,7 +84,6 @@ def run(scene: Scene) -> Outcome:
                 outcome.reason, refusal = f"{outcome.reason}\n{traceback.format_exc()}", ""
         except Exception as error:
             outcome.reason = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
-        outcome.seconds = time.process_time() - begin
         if refusal:
             outcome.kind = _refused(scene, refusal)
     return outcome
@@ -129,6 +127,19 @@ def _refused(scene: Scene, text: str) -> Kind:
 
 def steps_of(case: Case, outcome: Outcome) -> Iterator[float]:
     """Take the steps, and count what they cost; yields each t."""
+    reached = _steps_of(case, outcome)
+    while True:
+        begin = time.process_time()
+        try:
+            t = next(reached, None)
+        finally:
+            outcome.seconds += time.process_time() - begin
+        if t is None:
+            return
+        yield t
+
+
+def _steps_of(case: Case, outcome: Outcome) -> Iterator[float]:
     if case.cut:
         steps = cx.LoadSteps(case.problem, case.steps, update=case.update, progress=False)
         for step in steps:

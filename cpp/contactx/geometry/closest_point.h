@@ -4,7 +4,6 @@
 #pragma once
 
 #include "frame.h"
-#include <limits>
 
 namespace contactx::geometry
 {
@@ -114,7 +113,7 @@ Local<F> projection_start(const Nodes<F>& x, const Vector<F::gdim>& p)
   Local<F> start{};
   if constexpr (!F::flat)
   {
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     for (double s : {1. / 6, 0.5, 5. / 6})
       for (double t : {1. / 6, 0.5, 5. / 6})
       {
@@ -135,8 +134,7 @@ Local<F> projection_start(const Nodes<F>& x, const Vector<F::gdim>& p)
 template <class F>
 ClosestPoint<F> closest_point(const Nodes<F>& x, const Vector<F::gdim>& p)
 {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  ClosestPoint<F> c{{}, interior, inf, {}};
+  ClosestPoint<F> c{{}, interior, infinity, {}};
   Local<F> xi = projection_start<F>(x, p);
   if (project<F>(x, p, xi) and F::excess(xi) <= 1e-12)
   {

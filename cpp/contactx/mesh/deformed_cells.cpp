@@ -18,7 +18,6 @@ namespace
 {
 constexpr int max_halvings = 8;
 constexpr std::size_t max_parts = 512;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double determinant(const Vector<2>& a, const Vector<2>& b)
 {

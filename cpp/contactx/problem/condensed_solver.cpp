@@ -294,14 +294,14 @@ bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c,
   {
     // Where bodies can be told apart the other solver is fast: one slow solve
     // tells enough, and in its first digit
-    const bool is_mixed = _soft_stiff.tells_apart(*K_c);
-    if ((_multigrid_serves or not is_mixed or not is_slow(K_c, rhs, v))
+    const auto is_mixed = [&] { return _soft_stiff.tells_apart(*K_c); };
+    if ((_multigrid_serves or not is_mixed() or not is_slow(K_c, rhs, v))
         and _multigrid.solve(K_c, rhs, v, target))
     {
       _multigrid_serves = true;
       return true;
     }
-    _failures.multigrid += is_mixed ? max_failures : 1;
+    _failures.multigrid += is_mixed() ? max_failures : 1;
   }
   const bool is_solved = _soft_stiff.solve(K_c, rhs, v, target);
   if (is_solved)
@@ -319,7 +319,6 @@ bool CondensedSolver::is_slow(std::shared_ptr<CondensedOperator> K_c, Spans rhs,
 {
   std::vector<double> found(v.begin(), v.end());
   _multigrid.prepare(std::move(K_c));
-  const condense::Timing timing(*_algebra, "Krylov");
   if (_multigrid.solve_roughly(rhs, found))
   {
     std::ranges::copy(found, v.begin());

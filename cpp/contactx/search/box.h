@@ -5,7 +5,6 @@
 
 #include "../math/vec.h"
 #include <algorithm>
-#include <limits>
 
 /// @brief Search for the master facet of each slave node.
 namespace contactx::search
@@ -20,8 +19,7 @@ struct Box
   /// @brief A box that holds nothing.
   static constexpr Box empty()
   {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    return {{inf, inf, inf}, {-inf, -inf, -inf}};
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   }
 
   /// @brief Grow the box so that it holds `p`.

@@ -3,6 +3,7 @@
 
 #include "master_surface.h"
 #include "../check.h"
+#include "../math/vec.h"
 #include "distributed.h"
 #include <map>
 #include <numeric>
@@ -93,10 +94,9 @@ MasterSurface::keep(std::span<const std::int32_t> used)
 double MasterSurface::distance(std::span<const double> x,
                                std::span<const double> points)
 {
-  constexpr double none = std::numeric_limits<double>::infinity();
   const Found found
-      = find(x, points, std::vector<double>(points.size(), 0), none);
-  return std::accumulate(found.distance.begin(), found.distance.end(), none,
+      = find(x, points, std::vector<double>(points.size(), 0), infinity);
+  return std::accumulate(found.distance.begin(), found.distance.end(), infinity,
                          [](double a, double b) { return std::min(a, b); });
 }
 

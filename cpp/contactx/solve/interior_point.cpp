@@ -245,8 +245,7 @@ bool InteriorPoint::has_run_away() const
 
 double InteriorPoint::reach() const
 {
-  return has_run_away() ? escape_ratio * _shortest_way
-                        : std::numeric_limits<double>::infinity();
+  return has_run_away() ? escape_ratio * _shortest_way : infinity;
 }
 
 bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
@@ -530,8 +529,7 @@ void InteriorPoint::add(const std::vector<Step>& steps, double primal,
 std::array<double, 2>
 InteriorPoint::lengths(const std::vector<Step>& steps) const
 {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  double primal = far, dual = far;
+  double primal = infinity, dual = infinity;
   for (std::size_t k = 0; k < steps.size(); ++k)
   {
     const auto& in = _system->contacts()[k]->nodes()->interior;

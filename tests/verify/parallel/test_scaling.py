@@ -21,7 +21,7 @@ def folder(tmp_path, monkeypatch):
 
 def test_strong_scaling(monkeypatch):
     monkeypatch.setattr(bench_scaling, "RUNS", 1)
-    linear, *contact = bench_scaling.strong([0.07], METHODS[:1], [0.3])
+    linear, _, *contact = bench_scaling.strong([0.07], METHODS[:1], [0.3])
     assert linear["efficiency"] == 1
     assert [row["shared"] for row in contact] == [False, True]
     for row in contact:

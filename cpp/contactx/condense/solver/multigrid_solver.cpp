@@ -99,9 +99,7 @@ bool MultigridSolver::solve_roughly(std::span<const double> rhs,
   constexpr double rtol = 0.1;
   const double size = norm(_K_c->numbering().ranks(), rhs);
   const int most = static_cast<int>(_tuning.slow_rate * -std::log(rtol));
-  const Iterations done
-      = _hierarchy->solve(rhs, v, _K_c->is_symmetric(), rtol * size, most);
-  _iterations += done.count;
+  const Iterations done = run(rhs, v, _K_c->is_symmetric(), rtol * size, most);
   if (done.end == Iterations::End::indefinite)
     std::ranges::fill(v, 0);
   return done.end != Iterations::End::failed;
@@ -123,12 +121,7 @@ bool MultigridSolver::iterate(std::span<const double> rhs, std::span<double> v,
   // indefinite
   for (bool symmetric = _K_c->is_symmetric();; symmetric = false)
   {
-    Iterations done;
-    {
-      const Timing timing(_algebra, "Krylov");
-      done = _hierarchy->solve(rhs, v, symmetric, target, most);
-    }
-    _iterations += done.count;
+    const Iterations done = run(rhs, v, symmetric, target, most);
     count(done.count, reduction);
     if (done.converged())
       return true;
@@ -136,6 +129,16 @@ bool MultigridSolver::iterate(std::span<const double> rhs, std::span<double> v,
     if (not symmetric or done.end != Iterations::End::indefinite)
       return false;
   }
+}
+
+Iterations MultigridSolver::run(std::span<const double> rhs,
+                                std::span<double> v, bool is_symmetric,
+                                double target, int most)
+{
+  const Timing timing(_algebra, "Krylov");
+  const Iterations done = _hierarchy->solve(rhs, v, is_symmetric, target, most);
+  _iterations += done.count;
+  return done;
 }
 
 void MultigridSolver::count(int iterations, double reduction)

@@ -90,6 +90,8 @@ public:
 
 private:
   bool iterate(std::span<const double> rhs, std::span<double> v, double target);
+  Iterations run(std::span<const double> rhs, std::span<double> v,
+                 bool is_symmetric, double target, int most);
   void build();
   void update(const ContactUpdate& change, bool coarse);
 
