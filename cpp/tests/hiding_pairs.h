@@ -7,7 +7,7 @@
 
 namespace contactx::tests
 {
-/// @brief Frozen pairs that hide a penetration, until they are released.
+/// @brief Frozen pairs that hide a penetration.
 class Hiding : public contact::NodeToSurface
 {
 public:
@@ -18,11 +18,7 @@ public:
     return is_frozen ? std::vector<std::int32_t>{0}
                      : std::vector<std::int32_t>();
   }
-  void reset_flips() override
-  {
-    ++releases;
-    is_frozen = stays;
-  }
+  void reset_flips() override { ++releases; }
   contact::HiddenGap
   deepest_frozen_pair(std::span<const double>,
                       std::span<const std::int8_t>) const override
@@ -30,7 +26,7 @@ public:
     return is_frozen ? contact::HiddenGap{-1e-3, -0.1} : contact::HiddenGap();
   }
 
-  bool is_frozen = true, stays = true;
+  bool is_frozen = true;
   int releases = 0;
 };
 } // namespace contactx::tests

@@ -392,7 +392,7 @@ void SurfacesAudit::look_from_master(std::span<const double> positions,
 /// gap may be zero though there is a gap everywhere.
 double SurfacesAudit::look_across(std::span<const double> x, double facet_size)
 {
-  if (not _contact->integrates() or is_small())
+  if (not _contact->master()->integrates() or is_small())
     return 0;
   const int g = _halo->gdim();
   mesh::Ranks& ranks = _halo->ranks();

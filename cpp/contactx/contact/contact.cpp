@@ -6,6 +6,7 @@
 #include "../math/vec.h"
 #include "../mesh/extent.h"
 #include "deformable_master.h"
+#include "mobility.h"
 #include "obstacle_pairs.h"
 #include <algorithm>
 #include <cmath>
@@ -17,10 +18,6 @@ using namespace contactx::contact;
 
 namespace
 {
-// The same of an axis, below which there is no friction along it: a projection
-// over an open gap on a tilted facet is not exactly in a plane of symmetry
-constexpr double mobile_fraction_min = 0.05;
-
 std::string_view name_of(Sliding sliding)
 {
   return sliding == Sliding::small ? "small" : "finite";
@@ -53,7 +50,7 @@ Contact::Contact(std::shared_ptr<mesh::Halo> halo,
               or _options.shared.size() == std::size_t(_halo->num_owned()),
           "shared must have a value for each owned node");
   _nodes = std::make_shared<law::NodeState>(n, gdim(), _law->is_vector(),
-                                            integrates());
+                                            _master->integrates());
   if (_law->is_vector() and not _law->is_tied())
   {
     _history = std::make_shared<law::SlipHistory>(n, gdim());
@@ -88,13 +85,6 @@ Contact::Contact(std::shared_ptr<mesh::Halo> halo,
     find_adjusted(*_options.adjust);
 }
 
-/// Whether facets are integrated, so that normals are means over them.
-bool Contact::integrates() const
-{
-  return integrates_facets(_options.method, _master->is_rigid(),
-                           _slaves->is_quadratic());
-}
-
 kernel::Law Contact::kernel_law() const
 {
   if (_law->is_tied())
@@ -108,7 +98,7 @@ kernel::Law Contact::kernel_law() const
 /// surface, too.
 void Contact::find_rest()
 {
-  if (not _law->is_tied() or not integrates() or _master->is_rigid())
+  if (not _law->is_tied() or not _master->integrates() or _master->is_rigid())
     return;
   const auto reference = _halo->reference();
   const std::vector<double> still(reference.size(), 0);

@@ -223,9 +223,6 @@ public:
   /// in full. It has been searched, and its gap updated; no status changes.
   void foresee();
 
-  /// @brief True if its conditions are integrals over facets.
-  bool integrates() const;
-
   /// @brief Mark the nodes that the complementarity closes.
   ///
   /// At a step's start also those that touch but for rounding errors: these

@@ -49,6 +49,10 @@ public:
   /// @brief True if the master has no degrees of freedom.
   virtual bool is_rigid() const { return false; }
 
+  /// @brief True if its conditions are integrals over facets, so that normals
+  /// are means.
+  virtual bool integrates() const { return false; }
+
   /// @brief True if it is the slave surface itself.
   virtual bool is_self() const { return false; }
 

@@ -7,6 +7,11 @@
 
 namespace contactx::contact
 {
+/// Part of a movement along an axis that is free, below which there is no
+/// friction along it: a projection over an open gap on a tilted facet is not
+/// exactly in a plane of symmetry
+inline constexpr double mobile_fraction_min = 0.05;
+
 /// @brief True if no displacement of some nodes is prescribed.
 /// @param[in] nodes The nodes.
 /// @param[in] free 1 at displacements of all nodes that are not prescribed

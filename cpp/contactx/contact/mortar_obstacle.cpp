@@ -6,6 +6,7 @@
 #include "../geometry/quadrature.h"
 #include "../kernel/layout.h"
 #include "../math/matrix.h"
+#include "mobility.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -188,6 +189,19 @@ MortarObstacle::integrate(std::span<const double> x)
   for (const Kind& kind : _kinds)
     values.push_back(integrate(kind, x));
   return values;
+}
+
+Mobility MortarObstacle::mobility(std::span<const std::int8_t> free) const
+{
+  Mobility found = ObstacleMaster::mobility(free);
+  // A plane of symmetry has the obstacle's normals in it; elsewhere facets move
+  // with the nodes beside one that is held
+  const std::vector<double> normal = normals();
+  for (std::size_t i = 0; i < size(); ++i)
+    for (int k = 0; k < _gdim; ++k)
+      if (std::abs(normal[3 * i + k]) >= mobile_fraction_min)
+        found.each[_gdim * i + k] = 1;
+  return found;
 }
 
 void MortarObstacle::nodes_changed()

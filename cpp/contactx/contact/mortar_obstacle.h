@@ -26,12 +26,17 @@ public:
                  std::span<const double> x, int gdim, double reach,
                  bool measures_slip);
 
+  bool integrates() const override { return true; }
   void nodes_changed() override;
   std::int32_t search(std::span<const double> x,
                       std::span<const std::int8_t> closed) override;
 
   /// @copydoc Master::set_front_facets; the others are not integrated
   void set_front_facets(std::span<const std::int8_t> faces) override;
+
+  /// @copydoc Master::mobility; a node that is held may move along an axis that
+  /// does not lie in the surface
+  Mobility mobility(std::span<const std::int8_t> free) const override;
 
   /// @copydoc Master::pairs; of slave facets of one kind
   std::vector<kernel::Pairs> pairs() const override;

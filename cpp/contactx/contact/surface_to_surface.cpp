@@ -591,7 +591,15 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
   if (all_free(_sides.slaves(), free, g)
       and all_free(_surface->facets().nodes, free, g))
     return {std::vector<double>(n, 1), std::vector<double>(n * g, 1)};
-  std::vector<double> squares = free_squares(weights(), free, _paired, g);
+  const kernel::Weights w = weights();
+  std::vector<double> squares = free_squares(w, free, _paired, g);
+  // A plane of symmetry cuts the master, too
+  std::vector<std::int8_t> cuts(n * g, 0);
+  for (std::size_t e = 0; e < w.values.size(); ++e)
+    if (w.values[e] < 0)
+      for (int k = 0; k < g; ++k)
+        if (not free[std::size_t(w.nodes[e]) * g + k])
+          cuts[std::size_t(w.slaves[e]) * g + k] = 1;
   std::vector<std::int8_t> around(_sides.around().size() * g, 0);
   for (std::int32_t f = 0; f < _sides.num_slave_facets(); ++f)
     for (int k = 0; k < g; ++k)
@@ -612,7 +620,7 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
     {
       double& square = squares[g * i + k];
       if (not free[std::size_t(_sides.slaves()[i]) * g + k]
-          and around[g * i + k])
+          and around[g * i + k] and cuts[g * i + k])
         square = 0;
       sum += normal[3 * i + k] * normal[3 * i + k] * square;
       found.each[g * i + k] = std::sqrt(square);

@@ -37,6 +37,7 @@ public:
   /// before.
   void begin_step() override;
   void rebuild() override;
+  bool integrates() const override { return true; }
   void nodes_changed() override;
   std::optional<std::vector<double>>
   turn(std::span<const double> x) const override;
@@ -67,8 +68,9 @@ public:
   }
   std::vector<double> compliance(std::span<const double> nodal) const override;
 
-  /// @brief On a plane of symmetry nothing moves across it: only half of what
-  /// is around its slave nodes is integrated, where the master seems to.
+  /// @brief On a plane of symmetry, which cuts the master too, nothing moves
+  /// across it: only half of what is around its slave nodes is integrated,
+  /// where the master seems to.
   Mobility mobility(std::span<const std::int8_t> free) const override;
   std::vector<Saved> save() const override;
   void load(const std::vector<Saved>& saved) override;

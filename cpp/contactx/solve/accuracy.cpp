@@ -44,9 +44,9 @@ void Accuracy::set(double residual, double tolerance, double changing,
     const double most = _solves == 0 ? first_residual_max : next_residual_max;
     left = std::max(left,
                     std::clamp(changing, next_residual_min, most) * residual);
-    // Nodes near the cone would stick or slip by errors as large as forces
-    if (_has_path)
-      left = std::min(left, forces);
+    // Errors as large as forces decide which nodes close, stick and slip, and
+    // where bodies are far from balance a part of the residual is far larger
+    left = std::min(left, forces);
   }
   // Where Newton's method leaves less than the tolerance, errors of the solve
   // alone could make another iterate necessary

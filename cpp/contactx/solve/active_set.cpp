@@ -123,7 +123,7 @@ void ActiveSet::begin_step()
   _is_frozen = _is_stale = false;
   _changes = {};
   _paired = 0;
-  _frozen.begin_step();
+  _hidden = {};
   _halo->shrink();
   for (const auto& c : _contacts)
     c->begin_step();
@@ -160,8 +160,8 @@ Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
   }
   for (const auto& c : _contacts)
     c->nodes()->drop_open();
-  if (_bodies and _bodies->stabilise(forces))
-    freeze(true);
+  if (_bodies)
+    _bodies->stabilise(forces);
   _changes = changes;
   return changes;
 }
@@ -319,19 +319,14 @@ bool ActiveSet::hide_penetration()
   for (const auto& c : _contacts)
     found.push_back(
         c->master()->deepest_frozen_pair(now->x, c->nodes()->status));
-  return _frozen.hide_penetration(_halo->ranks(), found);
+  _hidden = hidden_penetration(_halo->ranks(), found);
+  return _hidden.is_deep;
 }
 
 ActiveSet::End ActiveSet::may_end(const Forces& forces)
 {
-  if (not _is_stale and not hide_penetration())
-    return End::solution;
   if (not _is_stale)
-  {
-    if (not _frozen.release())
-      return End::frozen_pair_penetrates;
-    reset_flips();
-  }
+    return hide_penetration() ? End::frozen_pair_penetrates : End::solution;
   update(forces, false, false);
   return End::again;
 }

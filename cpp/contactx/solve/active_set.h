@@ -112,7 +112,7 @@ public:
 
   /// @brief Smallest gap that frozen pairs of each contact hide, when last
   /// searched.
-  const std::vector<double>& hidden_gaps() const { return _frozen.gaps(); }
+  const std::vector<double>& hidden_gaps() const { return _hidden.gaps; }
 
 private:
   Changes update(const Forces& forces, bool is_first, bool may_freeze);
@@ -129,7 +129,7 @@ private:
   SharedNodes _junctions;
   bool _has_junctions;
   CycleGuard _guard;
-  FrozenPairs _frozen;
+  HiddenPenetration _hidden;
   Changes _changes;
   // Pairs that changed before the first iterate
   std::int64_t _paired = 0;

@@ -12,12 +12,11 @@ namespace
 /// Penetration, over the length of an edge, that frozen pairs may hide: that of
 /// a ridge of 45 degrees within the margin of a facet
 constexpr double hidden_depth_max = 0.03;
-/// Releases in a step
-constexpr int max_releases = 2;
 } // namespace
 
-bool FrozenPairs::hide_penetration(mesh::Ranks& ranks,
-                                   std::span<const contact::HiddenGap> found)
+HiddenPenetration
+contactx::solve::hidden_penetration(mesh::Ranks& ranks,
+                                    std::span<const contact::HiddenGap> found)
 {
   const std::size_t n = found.size();
   std::vector<double> least(2 * n);
@@ -28,15 +27,7 @@ bool FrozenPairs::hide_penetration(mesh::Ranks& ranks,
   }
   if (ranks.size() > 1)
     ranks.reduce(std::span(least), mesh::Reduction::least);
-  _gaps.assign(least.begin(), least.begin() + n);
-  return std::any_of(least.begin() + n, least.end(),
-                     [](double part) { return part < -hidden_depth_max; });
-}
-
-bool FrozenPairs::release()
-{
-  if (_times == max_releases)
-    return false;
-  ++_times;
-  return true;
+  return {{least.begin(), least.begin() + n},
+          std::any_of(least.begin() + n, least.end(),
+                      [](double part) { return part < -hidden_depth_max; })};
 }

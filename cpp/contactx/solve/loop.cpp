@@ -203,9 +203,13 @@ void Loop::predict(std::span<const double> increment)
 {
   // By surface-to-surface an extrapolation may pass a corner of the other body,
   // where that method has more than one answer
-  const bool may_pass = std::ranges::any_of(
-      _system->contacts(), [](const auto& contact)
-      { return contact->integrates() and not contact->master()->is_rigid(); });
+  const bool may_pass
+      = std::ranges::any_of(_system->contacts(),
+                            [](const auto& contact)
+                            {
+                              return contact->master()->integrates()
+                                     and not contact->master()->is_rigid();
+                            });
   if (not is_curved() or may_pass or _has_made_room)
     return;
   std::vector<double> start(_system->size());

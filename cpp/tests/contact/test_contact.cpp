@@ -452,9 +452,10 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
   EXPECT_GT(moving, 0);
 }
 
-TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
+TEST(Contact, ASlaveNodeInAPlaneOfSymmetryHasNoConstraintAcrossIt)
 {
-  // Integrals over its facets move with the nodes beside it
+  // Integrals over its facets move with the nodes beside it. Such a plane cuts
+  // the master, too
   ContactScene scene(2, 0.05);
   const std::int32_t n = scene.sheets.num_slaves, held = 1;
   for (const int axis : {0, 1})
@@ -463,6 +464,12 @@ TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
       scene.prescribed.assign(scene.u->size(), 0);
       for (std::int32_t i = 0; i < n; ++i)
         scene.prescribed[2 * i + axis] = i == held or not alone;
+      const auto guided = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
+      EXPECT_EQ(guided->nodes()->mobile[2 * held + axis], 1);
+      EXPECT_EQ(guided->nodes()->immobile[held], 0);
+      if (alone)
+        for (std::int32_t i = n; i < scene.sheets.num_nodes(); ++i)
+          scene.prescribed[2 * i + axis] = 1;
       const auto contact = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
       const law::NodeState& nodes = *contact->nodes();
       for (std::int32_t i = 0; i < n; ++i)

@@ -6,12 +6,17 @@ import numpy as np
 import pytest
 
 import contactx as cx
+import ufl
+from dolfinx import fem
 from dolfinx.mesh import CellType
 
 from scenes import CELLS, dimension
 from scenes.coulomb import parts
 from scenes.covering import BOTH, METHODS, SLIDINGS, covering
 from scenes.driven import DrivenBlock
+from scenes.grids import chosen, create, grid, middles, outside
+from scenes.problems import make_problem
+from story import displacement, elasticity
 
 pytestmark = pytest.mark.usefixtures("method")
 
@@ -222,3 +227,39 @@ def test_over_the_outer_edge(cell, method):
         # Part of its facets still carries
         assert open_nodes[-1] >= scene.gdim**2 // 4
     assert np.all(np.diff(open_nodes) >= 0)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("cells", [4, 8])
+def test_guided_down_a_slope_the_force_is_on_the_cone(method, cells):
+    """Guides hold slave nodes where the base is free: they are no planes of symmetry."""
+    friction = 0.1
+    domain = create(grid([0.0, 0.0], [2.0, 1.0], [10, 5]), grid([0.7, 1.0], [1.3, 1.5], [cells, 4]))
+    facets = outside(domain)
+    at, of_cell = middles(domain, facets)
+    is_block = of_cell[:, 1] > 1
+    level, side = np.isclose(at[:, 1], 1), np.isclose(np.abs(at[:, 0] - 1), 0.3)
+    places = [
+        level & is_block,
+        level & ~is_block,
+        np.isclose(at[:, 1], 0),
+        np.isclose(at[:, 1], 1.5),
+        side & is_block,
+    ]
+    tags = chosen(domain, facets, np.select(places, [1, 2, 3, 4, 5]))
+    slope = np.tan(np.pi / 6)
+    domain.geometry.x[:, 1] -= slope * (domain.geometry.x[:, 0] - 1)
+    u = displacement(domain)
+    V = u.function_space
+    ds = ufl.Measure("ds", domain=domain, subdomain_data=tags)
+    F = elasticity(u, 1e3, 0.3) + ufl.TestFunction(V)[1] * ds(4)
+    bcs = [
+        fem.dirichletbc(np.zeros(2), fem.locate_dofs_topological(V, 1, tags.find(3)), V),
+        fem.dirichletbc(0.0, fem.locate_dofs_topological(V.sub(0), 1, tags.find(5)), V.sub(0)),
+    ]
+    contact = cx.Contact(cx.Surface(tags, 1), cx.Surface(tags, 2), friction=friction, method=method)
+    make_problem(F, u, [contact], bcs).solve()
+    normal = np.array([slope, 1]) / np.hypot(slope, 1)
+    pressed = contact.force @ normal
+    rubs = contact.force @ np.array([normal[1], -normal[0]])
+    assert abs(rubs) == pytest.approx(friction * pressed, rel=0.01)
