@@ -160,8 +160,8 @@ Changes ActiveSet::update(const Forces& forces, bool is_first, bool may_freeze)
   }
   for (const auto& c : _contacts)
     c->nodes()->drop_open();
-  if (_bodies)
-    _bodies->stabilise(forces);
+  if (_bodies and _bodies->stabilise(forces))
+    freeze(true);
   _changes = changes;
   return changes;
 }

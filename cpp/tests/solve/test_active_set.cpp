@@ -253,6 +253,28 @@ TEST(ActiveSet, WhatGoesBackAndForthOnAFarActiveSetCountsForNothing)
             ActiveSet::End::frozen_pair_penetrates);
 }
 
+TEST(ActiveSet, NodesThatCloseForBalanceFreezeTheKinematics)
+{
+  for (const double load : {0.0, 1.0})
+  {
+    // A free body above one node in its way
+    Truss truss{2, {}, {}};
+    truss.add_block(1, {0, 0, 0}, 1);
+    FreeScene body(truss);
+    body.add_contact()->add(0, -1, {0, 1, 0}, 0.1);
+    Springs scene(2);
+    scene.add<NodeToSurface>();
+    const auto free = std::make_shared<FreeBodies>(body.free_bodies());
+    ActiveSet set(scene.scene.halo, scene.contacts, free);
+    const Forces forces = body.loads(body.push(0, {0, -load}));
+    set.begin_step();
+    free->begin_step();
+    set.update(forces, true);
+    EXPECT_EQ(free->closed_for_balance(), load > 0);
+    EXPECT_EQ(set.is_frozen(), load > 0);
+  }
+}
+
 TEST(ActiveSet, FrozenPairsThatHideAPenetrationAreNoSolution)
 {
   Springs scene(2);

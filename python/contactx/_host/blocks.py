@@ -230,16 +230,54 @@ def _derivatives(
     rows: list[list[ufl.Form | None]] = []
     for f in F:
         row: list[ufl.Form | None] = []
+        integrals = _with_degrees(f)
         for w in functions:
             # Loads drop out, so that a constant of theirs that changes does not count as one of J
             terms = [
-                i for i in f.integrals() if w in ufl.algorithms.extract_coefficients(i.integrand())
+                i for i in integrals if w in ufl.algorithms.extract_coefficients(i.integrand())
             ]
             J = ufl.derivative(ufl.Form(terms), w, ufl.TrialFunction(w.function_space))
             is_zero = len(functions) > 1 and ufl.algorithms.expand_derivatives(J).empty()
             row.append(None if not terms or is_zero else J)
         rows.append(row)
     return rows
+
+
+def _with_degrees(form: ufl.Form) -> list[ufl.Integral]:
+    """Integrals of a form with the degree of the quadrature that each is compiled with.
+
+    UFL estimates a higher one for what is derived from them, where they are no polynomials; but the
+    derivative of a sum over points is that over the same points.
+    """
+    # As FFCx asks for it: pull-backs and scaling raise the degree
+    data = ufl.algorithms.compute_form_data(
+        form,
+        do_apply_function_pullbacks=True,
+        do_apply_integral_scaling=True,
+        do_apply_geometry_lowering=True,
+        preserve_geometry_types=(ufl.classes.Jacobian,),
+        do_apply_restrictions=True,
+        do_append_everywhere_integrals=False,
+    )
+    degrees: dict[tuple[Any, ...], int] = {}
+    for group in data.integral_data:
+        estimates = [
+            int(np.max(integral.metadata()["estimated_polynomial_degree"]))
+            for integral in group.integrals
+            if "quadrature_degree" not in integral.metadata()
+        ]
+        ids: Any = group.subdomain_id
+        for subdomain in ids if estimates else ():
+            place = "everywhere" if subdomain == "otherwise" else subdomain
+            degrees[group.domain, group.integral_type, place] = max(estimates)
+    integrals = []
+    for integral in form.integrals():
+        places: Any = integral.subdomain_id()
+        for place in places if isinstance(places, tuple) else (places,):
+            estimated = degrees.get((integral.ufl_domain(), integral.integral_type(), place))
+            metadata = {"quadrature_degree": estimated, **integral.metadata()}
+            integrals.append(integral.reconstruct(metadata=metadata, subdomain_id=place))
+    return integrals
 
 
 def _conditions_of(V: fem.FunctionSpace, bcs: Sequence[fem.DirichletBC]) -> list[Any]:
