@@ -68,9 +68,8 @@ public:
   }
   std::vector<double> compliance(std::span<const double> nodal) const override;
 
-  /// @brief On a plane of symmetry, which cuts the master too, nothing moves
-  /// across it: only half of what is around its slave nodes is integrated,
-  /// where the master seems to.
+  /// @brief On a plane of symmetry nothing moves across it: only half of what
+  /// is around its slave nodes is integrated, where the master seems to.
   Mobility mobility(std::span<const std::int8_t> free) const override;
   std::vector<Saved> save() const override;
   void load(const std::vector<Saved>& saved) override;

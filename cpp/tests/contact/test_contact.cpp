@@ -452,10 +452,9 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
   EXPECT_GT(moving, 0);
 }
 
-TEST(Contact, ASlaveNodeInAPlaneOfSymmetryHasNoConstraintAcrossIt)
+TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
 {
-  // Integrals over its facets move with the nodes beside it. Such a plane cuts
-  // the master, too
+  // Integrals over its facets move with the nodes beside it
   ContactScene scene(2, 0.05);
   const std::int32_t n = scene.sheets.num_slaves, held = 1;
   for (const int axis : {0, 1})
@@ -464,12 +463,6 @@ TEST(Contact, ASlaveNodeInAPlaneOfSymmetryHasNoConstraintAcrossIt)
       scene.prescribed.assign(scene.u->size(), 0);
       for (std::int32_t i = 0; i < n; ++i)
         scene.prescribed[2 * i + axis] = i == held or not alone;
-      const auto guided = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
-      EXPECT_EQ(guided->nodes()->mobile[2 * held + axis], 1);
-      EXPECT_EQ(guided->nodes()->immobile[held], 0);
-      if (alone)
-        for (std::int32_t i = n; i < scene.sheets.num_nodes(); ++i)
-          scene.prescribed[2 * i + axis] = 1;
       const auto contact = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
       const law::NodeState& nodes = *contact->nodes();
       for (std::int32_t i = 0; i < n; ++i)
@@ -481,6 +474,26 @@ TEST(Contact, ASlaveNodeInAPlaneOfSymmetryHasNoConstraintAcrossIt)
         EXPECT_EQ(nodes.immobile[i], axis == 1 and not is_free);
       }
     }
+}
+
+TEST(Contact, AGuideAcrossASlopeIsNoPlaneOfSymmetry)
+{
+  for (const bool cuts_master : {false, true})
+  {
+    ContactScene scene(2, 0.05);
+    const std::int32_t n = scene.sheets.num_slaves, held = 1;
+    for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
+    {
+      (*scene.u)[2 * i + 1] = 0.5 * scene.sheets.x[2 * i];
+      scene.prescribed[2 * i] = i == held or (cuts_master and i >= n);
+    }
+    const auto contact = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
+    contact->begin_step();
+    contact->search();
+    EXPECT_EQ(contact->nodes()->mobile[2 * held], not cuts_master);
+    EXPECT_EQ(contact->nodes()->mobile[2 * held + 1], 1);
+    EXPECT_EQ(contact->nodes()->immobile[held], 0);
+  }
 }
 
 TEST(Contact, WhatCannotMoveAlongTheNormalStaysOpen)
