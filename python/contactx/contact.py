@@ -44,6 +44,7 @@ _OPTIONS = (
     "adjust",
     "smooth",
     "weight",
+    "tangential_factor",
 )
 _SLIDING = ("finite", "small")
 _METHODS = ("node-to-surface", "surface-to-surface")
@@ -178,14 +179,28 @@ class Contact:
 
     def __setattr__(self, name: str, value: object) -> None:
         """Refuse names that do not exist, and options that have been read already."""
-        if "_fields" in vars(self) and not (name in vars(self) or hasattr(type(self), name)):
+        is_made = "_fields" in vars(self)
+        if is_made and not (name in vars(self) or hasattr(type(self), name)):
             raise AttributeError(f"a Contact has no {name!r}: check the spelling")
         if name in _OPTIONS and vars(self).get("_discrete") is not None:
             raise AttributeError(
                 f"{name} cannot be replaced once the contact belongs to a ContactProblem: give "
                 "friction and offset as a fem.Constant or fem.Function and change its value"
             )
+        if not is_made or name not in (*_OPTIONS, "name"):
+            super().__setattr__(name, value)
+            return
+        given = {key: getattr(self, key) for key in (*_OPTIONS, "name")}
+        before = given[name]
+        given[name] = value
+        check_weight(given.pop("weight"))
+        _check_options(**given)
         super().__setattr__(name, value)
+        try:
+            self._core_options().check(is_self=self.is_self)
+        except ValueError:
+            super().__setattr__(name, before)
+            raise
 
     def __repr__(self) -> str:
         """Name the contact, or its surfaces."""

@@ -370,15 +370,23 @@ class CSVOutput:
 
         Raises:
             OSError: If the file cannot be written, on all ranks.
-            TypeError: If t is no number.
+            TypeError: If t, or what a function of ``columns`` returns, is no number.
+            Exception: What a function of ``columns`` raises, on all ranks.
         """
-        if not is_number(t):
-            raise TypeError(f"t is {described(t)}: give a number")
-        row = [float(t), *(value for contact in self._contacts for value in self._totals(contact))]
-        row += [float(value()) for value in self._columns.values()]
+        row = [value for contact in self._contacts for value in self._totals(contact)]
         with agreed(self._comm):
+            if not is_number(t):
+                raise TypeError(f"t is {described(t)}: give a number")
+            for name, function in self._columns.items():
+                value = function()
+                if np.ndim(value) > 0:
+                    raise TypeError(
+                        f"columns[{name!r}] returns an array of shape {np.shape(value)}: let it "
+                        "return a number"
+                    )
+                row.append(float(value))
             if self._comm.rank == 0:
-                self._append("a", row)
+                self._append("a", [float(t), *row])
 
     @staticmethod
     def _names_of(contact: Contact, suffix: str) -> list[str]:

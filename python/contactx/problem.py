@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -141,6 +142,19 @@ class ContactProblem:
         snes.setOptionsPrefix(petsc_options_prefix)
         self._newton = self.assembler.newton_loop(snes, condensed=condensed)
         self._read_options = False
+        self._is_made = True
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Refuse to replace what has been read already; it would change nothing."""
+        is_own = name.startswith("_") or name == "report" or hasattr(type(self), name)
+        if not is_own and "_is_made" in vars(self):
+            given = inspect.signature(type(self).__init__).parameters
+            if name in vars(self) or name in given:
+                raise AttributeError(
+                    f"{name} cannot be replaced once the {type(self).__name__} is made: change the "
+                    "values of the functions, constants and conditions that it has, or make another"
+                )
+        super().__setattr__(name, value)
 
     @property
     def solver(self) -> PETSc.SNES:

@@ -4,12 +4,16 @@
 #include "cycle_guard.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 using namespace contactx;
 using namespace contactx::solve;
 
 namespace
 {
+/// Relative difference of residuals up to which two iterates are the same
+constexpr double equal_residual_rel_tol = 1e-3;
+
 /// Mix the bits of a number (Steele, Lea & Flood, Fast splittable pseudorandom
 /// number generators, OOPSLA 2014).
 std::uint64_t mixed(std::uint64_t z)
@@ -58,12 +62,17 @@ bool CycleGuard::shortens()
 
 bool CycleGuard::note(std::uint64_t status, double residual)
 {
-  const auto [seen, is_new] = _seen.try_emplace(status, residual);
-  // One that stays may converge slowly
-  const bool again = not is_new and status != _status
-                     and residual > step_fraction * seen->second;
+  std::vector<double>& before = _seen[status];
+  bool again = false;
+  if (status == _status)
+    // It may converge slowly; with the same residual slip chatters
+    again = std::ranges::any_of(
+        before, [residual](double r)
+        { return std::abs(residual - r) < equal_residual_rel_tol * r; });
+  else if (not before.empty())
+    again = residual > step_fraction * std::ranges::min(before);
   _status = status;
-  seen->second = std::min(seen->second, residual);
+  before.push_back(residual);
   if (not again or _short > 0)
     return false;
   ++_cycles;

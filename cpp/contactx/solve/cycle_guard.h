@@ -53,8 +53,8 @@ public:
 private:
   int _cycles = 0;
   int _short = 0; // number of steps that are still to be shortened
-  // Smallest residual of each status
-  std::unordered_map<std::uint64_t, double> _seen;
+  // Residuals of each status
+  std::unordered_map<std::uint64_t, std::vector<double>> _seen;
   std::optional<std::uint64_t> _status;
 };
 } // namespace contactx::solve

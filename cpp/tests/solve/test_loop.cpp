@@ -334,18 +334,9 @@ TEST(Loop, HalfAStepIsTakenWhereIteratesGoRound)
   EXPECT_EQ(found.judge(true), Verdict::goes_on);
   const std::vector<double> x = found.unknowns(),
                             dx = tests::solution(found.matrix(), found.b);
-  // Away from the master, and back
-  std::vector<double> away = x;
-  for (std::int32_t i = 0; i < found.scene.sheets.num_slaves; ++i)
-    away[3 * i + 2] += 1;
-  std::fill(away.begin() + std::ptrdiff_t(found.scene.u->size()), away.end(),
-            0.0);
-  for (const std::vector<double>& iterate : {away, x})
-  {
-    EXPECT_EQ(found.loop->active_set().cycles(), 0);
-    found.system().take(iterate);
-    found.judge();
-  }
+  found.take(dx, 0);
+  EXPECT_EQ(found.loop->active_set().cycles(), 0);
+  found.judge();
   EXPECT_EQ(found.unknowns(), x);
   // The same residual again
   EXPECT_EQ(found.loop->active_set().cycles(), 1);
