@@ -277,6 +277,20 @@ def checkpoint_cannot_be_written(folder: Path) -> dict[str, Any]:
     return {"errors": _raised(comm, lambda: list(steps))}
 
 
+def column_fails_on_one_rank(folder: Path) -> dict[str, Any]:
+    """Such as a largest value of nodes that it has none of."""
+    scene, comm = _blocks(SlidingBlocks)
+    scene.problem.solve()
+
+    def column() -> float:
+        if comm.rank == comm.size - 1:
+            raise ValueError("no slave node here")
+        return 0.0
+
+    totals = cx.CSVOutput(folder / "totals.csv", scene.problem.contacts, columns={"none": column})
+    return {"errors": _raised(comm, lambda: totals.write(1.0))}
+
+
 def slave_is_too_coarse(folder: Path) -> dict[str, Any]:
     """A punch reaches through a facet whose nodes other ranks may have."""
     block = PunchedBlock(2, n=4, punch=8, x0=0.25)

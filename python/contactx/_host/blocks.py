@@ -18,6 +18,7 @@ import ufl
 from contactx._host.parallel import reduce
 from contactx.errors import NotFiniteError
 from dolfinx import fem, la
+from ufl.algorithms.strip_terminal_data import strip_terminal_data
 from ufl.utils.sorting import canonicalize_metadata
 
 type Array = npt.NDArray[np.float64]
@@ -249,9 +250,11 @@ def _with_degrees(form: ufl.Form) -> list[ufl.Integral]:
     UFL estimates a higher one for what is derived from them, where they are no polynomials; but the
     derivative of a sum over points is that over the same points.
     """
+    # UFL keeps what it has seen, and would keep meshes and functions
+    bare, _ = strip_terminal_data(form)
     # As FFCx asks for it: pull-backs and scaling raise the degree
-    data = ufl.algorithms.compute_form_data(
-        form,
+    data: Any = ufl.algorithms.compute_form_data(
+        bare,
         do_apply_function_pullbacks=True,
         do_apply_integral_scaling=True,
         do_apply_geometry_lowering=True,
@@ -266,15 +269,15 @@ def _with_degrees(form: ufl.Form) -> list[ufl.Integral]:
             for integral in group.integrals
             if "quadrature_degree" not in integral.metadata()
         ]
-        ids: Any = group.subdomain_id
-        for subdomain in ids if estimates else ():
+        for subdomain in group.subdomain_id if estimates else ():
             place = "everywhere" if subdomain == "otherwise" else subdomain
-            degrees[group.domain, group.integral_type, place] = max(estimates)
+            degrees[group.domain.ufl_id(), group.integral_type, place] = max(estimates)
     integrals = []
     for integral in form.integrals():
+        domain: Any = integral.ufl_domain()
         places: Any = integral.subdomain_id()
         for place in places if isinstance(places, tuple) else (places,):
-            estimated = degrees.get((integral.ufl_domain(), integral.integral_type(), place))
+            estimated = degrees.get((domain.ufl_id(), integral.integral_type(), place))
             metadata = {"quadrature_degree": estimated, **integral.metadata()}
             integrals.append(integral.reconstruct(metadata=metadata, subdomain_id=place))
     return integrals

@@ -267,6 +267,8 @@ def test_function_that_varies_over_the_surface_is_used_node_by_node():
 def test_an_option_cannot_be_replaced_where_it_would_have_no_effect(blocks, name):
     contact = blocks.contact(friction=0.1)
     setattr(contact, name, getattr(contact, name))
+    with pytest.raises((TypeError, ValueError), match=name):
+        setattr(contact, name, "none")
     problem = blocks.problem(contact)
     with pytest.raises(AttributeError, match=f"{name} cannot be replaced"):
         setattr(contact, name, 0.2)

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """What a problem is made of: displacement, forms, conditions, contacts, options."""
 
+import gc
 import sys
 import warnings
+import weakref
 from types import SimpleNamespace
 
 from mpi4py import MPI
@@ -368,6 +370,16 @@ def test_a_refused_problem_frees_its_contacts():
     assert other.force[1] > 0
 
 
+def test_a_problem_is_freed_with_its_functions():
+    """Meshes have communicators, of which there are few."""
+    blocks = Blocks(CellType.quadrilateral)
+    blocks.problem(blocks.contact()).solve()
+    u = weakref.ref(blocks.u)
+    del blocks
+    gc.collect()
+    assert u() is None
+
+
 CHANGES = {
     # Slave nodes at the sides no longer move along the surface
     "appended": lambda b: b.bcs.append(fix(b.u, b.tags, 0, 0.01, Tag.UPPER_X0, Tag.UPPER_X1)),
@@ -408,6 +420,26 @@ def test_conditions_that_come_later_are_checked():
     assert (scene.u.x.array == u).all()
     scene.bcs.pop()
     problem.solve()
+
+
+@pytest.mark.parametrize("name", ["u", "contacts", "bcs", "F", "audit", "velocity"])
+def test_what_has_been_read_cannot_be_replaced(name):
+    scene = Blocks(CellType.quadrilateral)
+    if name == "velocity":
+        v = ufl.TestFunction(scene.u.function_space)
+        problem = cx.ContactDynamics(
+            lambda w: ufl.inner(ufl.grad(w), ufl.grad(v)) * ufl.dx,
+            scene.u,
+            density=1.0,
+            contacts=[scene.contact()],
+            petsc_options_prefix="replaced_",
+        )
+        problem.dt = 0.1
+    else:
+        problem = scene.problem(scene.contact())
+    problem.mine = 1
+    with pytest.raises(AttributeError, match=f"{name} cannot be replaced once the Contact"):
+        setattr(problem, name, scene.u)
 
 
 class Constraint:

@@ -90,6 +90,23 @@ def test_columns_that_are_refused(tmp_path: Path, columns, kind, text):
         cx.CSVOutput(tmp_path / "totals.csv", contacts, columns=columns)
 
 
+@pytest.mark.parametrize(
+    "column, text",
+    [
+        (lambda: np.zeros(3), r"columns\['drag'\] returns an array of shape \(3,\)"),
+        (lambda: np.zeros(0).max(), "zero-size array"),
+    ],
+)
+def test_a_column_that_fails_leaves_no_line(tmp_path: Path, column, text):
+    scene = Blocks(CellType.quadrilateral)
+    contact = scene.contact()
+    scene.problem(contact)
+    totals = cx.CSVOutput(tmp_path / "totals.csv", [contact], columns={"drag": column})
+    with pytest.raises((TypeError, ValueError), match=text):
+        totals.write(1.0)
+    assert len((tmp_path / "totals.csv").read_text().splitlines()) == 1
+
+
 def test_names_that_are_refused(tmp_path: Path):
     scene = Blocks(CellType.quadrilateral)
     surfaces = cx.Surface(scene.tags, Tag.UPPER_X1), cx.Plane((9, 0), (-1, 0))

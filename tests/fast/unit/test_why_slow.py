@@ -138,6 +138,21 @@ def test_rounding_of_rigid_motions_is_not_blamed(wrong):
     assert error > 0.5 if wrong else error < 1e-3
 
 
+@pytest.mark.parametrize("cell", [CellType.quadrilateral, CellType.triangle], ids=lambda c: c.name)
+def test_a_derived_jacobian_is_that_of_the_points_of_f(cell):
+    """UFL estimates more points for a derivative that is no polynomial."""
+    scene = Blocks(cell)
+    u, v = scene.u, ufl.TestFunction(scene.u.function_space)
+    deformed = ufl.Identity(2) + ufl.grad(u)
+    stress = deformed - ufl.inv(deformed).T + ufl.ln(ufl.det(deformed)) * ufl.inv(deformed).T
+    scene.F, scene.bcs = ufl.inner(stress, ufl.grad(v)) * ufl.dx, []
+    noise = np.random.default_rng(0)
+    u.x.array[:] = 0.03 * noise.normal(size=len(u.x.array))
+    problem = scene.problem(scene.contact())
+    direction = noise.normal(size=len(u.x.array))
+    assert core.derivative_error(problem.assembler.system.core, direction, 1e-6) < 1e-7
+
+
 def test_a_tolerance_below_rounding_is_named(monkeypatch):
     """Where no estimate of the rounding errors helps."""
     scene = Blocks(CellType.triangle)

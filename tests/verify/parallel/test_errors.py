@@ -32,6 +32,7 @@ RAISED = {
     "cells_are_turned_inside_out": "6 cells are turned inside out, the worst with det F = -1.1",
     "checkpoint_is_damaged": "is truncated, or no checkpoint at all",
     "checkpoint_cannot_be_written": "Error: ",
+    "column_fails_on_one_rank": "ValueError: no slave node here",
 }
 
 
