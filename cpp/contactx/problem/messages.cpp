@@ -31,8 +31,9 @@ std::string contactx::problem::failure_of(Verdict verdict, double moved)
              "errors/body-turned)";
   case Verdict::unbalanced:
     return "the loads on a body cannot be balanced: it has no support and "
-           "nothing is in its way, or friction barely could. Support it, or "
-           "turn the loads so that they press the bodies together (manual: "
+           "nothing is in its way, or friction barely could. Support it, turn "
+           "the loads so that they press the bodies together, or take smaller "
+           "load steps where friction has to hold it (manual: "
            "errors/unbalanced-loads)";
   case Verdict::not_finite:
     return "the residual is not finite: the material fails, or a body is free "

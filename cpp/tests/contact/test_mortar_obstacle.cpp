@@ -364,6 +364,26 @@ TEST(MortarObstacle, IsAsItWasAfterLoading)
   }
 }
 
+TEST(MortarObstacle, ANodeHeldAcrossItsNormalMoves)
+{
+  // A plane, with the surface in it: along the surface a held node has no
+  // friction, and across the normal facets move with the nodes beside it
+  for (const double slope : {0.0, 0.02, 0.5})
+  {
+    Scene line = surface(2, Cells::mixed, 0);
+    for (std::size_t k = 0; k < line.x.size(); k += 2)
+      line.x[k + 1] = slope * line.x[k];
+    const Front front(std::move(line), std::make_shared<geometry::Plane>(
+                                           std::vector<double>{0, 0},
+                                           std::vector<double>{slope, -1}));
+    std::vector<std::int8_t> free(front.scene.x.size(), 1);
+    free[0] = 0;
+    const Mobility found = front.master->mobility(free);
+    EXPECT_EQ(found.each[0], slope > 0.1 ? 1 : 0);
+    EXPECT_EQ(found.each[1], 1);
+  }
+}
+
 TEST(MortarObstacle, RefusesAFacetWithoutArea)
 {
   Scene scene(2);
