@@ -56,7 +56,10 @@ TEST(Accuracy, IsAPartOfTheForcesWhileTheActiveSetChanges)
   {
     Accuracy accuracy(has_path);
     target(accuracy, 20, 0.9);
-    EXPECT_NEAR(target(accuracy, 20, 0.9), 0.3 * forces, 1e-15);
+    EXPECT_NEAR(target(accuracy, 20, 0.9), has_path ? 0.3 * forces : 0.6,
+                1e-15);
+    EXPECT_NEAR(target(accuracy, 2000, 0.9),
+                0.3 * (has_path ? forces : 30 * forces), 1e-15);
     // Of an active set that has converged the residual's square tells
     target(accuracy, 20, 0);
     EXPECT_NEAR(target(accuracy, 20, 0), 0.6, 1e-15);

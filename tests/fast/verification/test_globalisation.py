@@ -67,6 +67,14 @@ def test_a_cantilever_lies_down_on_a_circle(method, friction):
     assert report.discarded == 0
 
 
+def test_a_long_cantilever_is_condensed():
+    """Its residual is far larger than its load on the way, and so are errors that are a part of it."""
+    report = bent.cantilever(1000, st_venant_kirchhoff)
+    assert report.krylov > 0
+    assert report.iterations <= 33
+    assert report.discarded == 0
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_leaves_that_touch_along_their_length_come_apart(method):
     report = bent.leaves(60, method=method)
