@@ -68,7 +68,7 @@ def test_a_cantilever_lies_down_on_a_circle(method, friction):
 
 
 def test_a_long_cantilever_is_condensed():
-    """Its residual is far larger than its load on the way, and so are errors that are a part of it."""
+    """On the way its residual is far larger than its load, and so is a part of it."""
     report = bent.cantilever(1000, st_venant_kirchhoff)
     assert report.krylov > 0
     assert report.iterations <= 33
