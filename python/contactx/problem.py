@@ -142,14 +142,17 @@ class ContactProblem:
         snes.setOptionsPrefix(petsc_options_prefix)
         self._newton = self.assembler.newton_loop(snes, condensed=condensed)
         self._read_options = False
-        self._is_made = True
+        self._made = frozenset(vars(self))
 
     def __setattr__(self, name: str, value: object) -> None:
         """Refuse to replace what has been read already; it would change nothing."""
-        is_own = name.startswith("_") or name == "report" or hasattr(type(self), name)
-        if not is_own and "_is_made" in vars(self):
+        is_free = name.startswith("_") or name == "report" or hasattr(type(self), name)
+        made = vars(self).get("_made")
+        if made is not None and not is_free and vars(self).get(name) is not value:
+            # A class of the user's own may keep what it was given
+            is_derived = not type(self).__module__.startswith("contactx.")
             given = inspect.signature(type(self).__init__).parameters
-            if name in vars(self) or name in given:
+            if name in made or (name in given and not is_derived):
                 raise AttributeError(
                     f"{name} cannot be replaced once the {type(self).__name__} is made: change the "
                     "values of the functions, constants and conditions that it has, or make another"

@@ -438,8 +438,23 @@ def test_what_has_been_read_cannot_be_replaced(name):
     else:
         problem = scene.problem(scene.contact())
     problem.mine = 1
+    problem.u = scene.u
     with pytest.raises(AttributeError, match=f"{name} cannot be replaced once the Contact"):
-        setattr(problem, name, scene.u)
+        setattr(problem, name, fem.Function(scene.u.function_space))
+
+
+def test_a_class_of_ones_own_keeps_what_it_was_given():
+    class Own(cx.ContactProblem):
+        def __init__(self, F, u, contacts, bcs):
+            super().__init__(F, u, contacts=contacts, bcs=bcs, petsc_options_prefix="own_")
+            self.F, self.bcs, self.u = F, bcs, u
+            self.mine = 1
+            self.mine = 2
+
+    scene = Blocks(CellType.quadrilateral)
+    own = Own(scene.F, scene.u, [scene.contact()], scene.bcs)
+    own.solve()
+    assert own.bcs is scene.bcs
 
 
 class Constraint:
