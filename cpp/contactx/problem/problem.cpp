@@ -896,8 +896,8 @@ std::string Problem::why_slow(std::span<const double> direction)
     falls = falls and (k == 0 or last[k].residual < last[k - 1].residual);
     changes = changes or last[k].changes.status + last[k].changes.pairs > 0;
   }
-  const double rounding = math::zero_round_off
-                          * _loop.convergence().scales().deforming_force();
+  const double rounding
+      = math::zero_round_off * _loop.convergence().scales().deforming_force();
   if (not(most <= stagnant_residual_ratio * least) or falls or changes
       or least > rounding)
     return {};
