@@ -187,12 +187,12 @@ class Contact:
                 f"{name} cannot be replaced once the contact belongs to a ContactProblem: give "
                 "friction and offset as a fem.Constant or fem.Function and change its value"
             )
-        if not is_made or name not in (*_OPTIONS, "name"):
+        checked = (*_OPTIONS, "name")
+        if not is_made or name not in checked:
             super().__setattr__(name, value)
             return
-        given = {key: getattr(self, key) for key in (*_OPTIONS, "name")}
-        before = given[name]
-        given[name] = value
+        before = getattr(self, name)
+        given = {key: getattr(self, key) for key in checked} | {name: value}
         check_weight(given.pop("weight"))
         _check_options(**given)
         super().__setattr__(name, value)

@@ -12,6 +12,16 @@ namespace contactx::contact
 /// exactly in a plane of symmetry
 inline constexpr double mobile_fraction_min = 0.05;
 
+/// @brief True if an axis is neither along the surface nor along its normal, so
+/// that what holds a node along it is no plane of symmetry.
+/// @param[in] component Of the unit normal along the axis.
+constexpr bool is_inclined(double component)
+{
+  constexpr double least = mobile_fraction_min * mobile_fraction_min;
+  const double square = component * component;
+  return square >= least and 1 - square >= least;
+}
+
 /// @brief True if no displacement of some nodes is prescribed.
 /// @param[in] nodes The nodes.
 /// @param[in] free 1 at displacements of all nodes that are not prescribed

@@ -194,12 +194,11 @@ MortarObstacle::integrate(std::span<const double> x)
 Mobility MortarObstacle::mobility(std::span<const std::int8_t> free) const
 {
   Mobility found = ObstacleMaster::mobility(free);
-  // A plane of symmetry has the obstacle's normals in it; elsewhere facets move
-  // with the nodes beside one that is held
+  // Facets move with the nodes beside one that is held
   const std::vector<double> normal = normals();
   for (std::size_t i = 0; i < size(); ++i)
     for (int k = 0; k < _gdim; ++k)
-      if (std::abs(normal[3 * i + k]) >= mobile_fraction_min)
+      if (is_inclined(normal[3 * i + k]))
         found.each[_gdim * i + k] = 1;
   return found;
 }

@@ -35,7 +35,7 @@ public:
   void set_front_facets(std::span<const std::int8_t> faces) override;
 
   /// @copydoc Master::mobility; a node that is held may move along an axis that
-  /// does not lie in the surface
+  /// is inclined
   Mobility mobility(std::span<const std::int8_t> free) const override;
 
   /// @copydoc Master::pairs; of slave facets of one kind

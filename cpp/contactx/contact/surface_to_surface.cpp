@@ -593,17 +593,8 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
     return {std::vector<double>(n, 1), std::vector<double>(n * g, 1)};
   const kernel::Weights w = weights();
   std::vector<double> squares = free_squares(w, free, _paired, g);
-  // A plane of symmetry cuts the master, too, and an axis across a guide of
-  // what slides down a slope is neither along the surface nor along its normal
-  const std::vector<double> normal = normals();
-  constexpr double least = mobile_fraction_min * mobile_fraction_min;
+  // A plane of symmetry cuts the master, too
   std::vector<std::int8_t> cuts(n * g, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    for (int k = 0; k < g; ++k)
-    {
-      const double square = normal[3 * i + k] * normal[3 * i + k];
-      cuts[g * i + k] = square < least or 1 - square < least;
-    }
   for (std::size_t e = 0; e < w.values.size(); ++e)
     if (w.values[e] < 0)
       for (int k = 0; k < g; ++k)
@@ -620,6 +611,7 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
         for (const std::int32_t i : _sides.numbers(f))
           around[std::size_t(i) * g + k] = 1;
     }
+  const std::vector<double> normal = normals();
   Mobility found{std::vector<double>(n), std::vector<double>(n * g)};
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -628,7 +620,8 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
     {
       double& square = squares[g * i + k];
       if (not free[std::size_t(_sides.slaves()[i]) * g + k]
-          and around[g * i + k] and cuts[g * i + k])
+          and around[g * i + k]
+          and (cuts[g * i + k] or not is_inclined(normal[3 * i + k])))
         square = 0;
       sum += normal[3 * i + k] * normal[3 * i + k] * square;
       found.each[g * i + k] = std::sqrt(square);

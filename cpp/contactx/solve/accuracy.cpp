@@ -15,10 +15,10 @@ constexpr double next_residual_min = 1e-5, next_residual_max = 0.1;
 /// displacement is large against the forces of contact: it would decide which
 /// nodes close
 constexpr double first_residual_max = 1e-3;
-/// The same over the forces of the problem, than which the residual is far
-/// larger where bodies are far from balance: errors decide which nodes close,
-/// and with friction which stick. Long beams without friction take the same
-/// iterations from 1 to 100, and are not solved by 1000
+/// What a solve may leave over the forces of the problem, than which the
+/// residual is far larger where bodies are far from balance: errors decide
+/// which nodes close, and with friction which stick. Long beams without
+/// friction take the same iterations from 1 to 100, and are not solved by 1000
 constexpr double forces_left = 30, forces_left_friction = 1;
 /// Residual of a linear solve over that of the next iterate
 constexpr double solve_fraction = 0.3;

@@ -387,8 +387,10 @@ TEST(Loop, FrozenPairsThatHideAPenetrationEndIt)
     found.begin();
     // As if the pairs had gone back and forth since
     master.is_frozen = hides;
+    const std::int64_t version = found.loop->version();
     EXPECT_EQ(found.judge(true),
               hides ? Verdict::frozen_pair_penetrates : Verdict::solution);
+    EXPECT_EQ(found.loop->version(), version);
   }
 }
 
