@@ -4,6 +4,7 @@
 #pragma once
 
 #include "master.h"
+#include <cmath>
 
 namespace contactx::contact
 {
@@ -12,14 +13,20 @@ namespace contactx::contact
 /// exactly in a plane of symmetry
 inline constexpr double mobile_fraction_min = 0.05;
 
+/// @brief True if an axis is a surface's normal.
+/// @param[in] component Of the unit normal along the axis.
+constexpr bool is_normal(double component)
+{
+  return 1 - component * component < mobile_fraction_min * mobile_fraction_min;
+}
+
 /// @brief True if an axis is neither along the surface nor along its normal, so
 /// that what holds a node along it is no plane of symmetry.
 /// @param[in] component Of the unit normal along the axis.
-constexpr bool is_inclined(double component)
+inline bool is_inclined(double component)
 {
-  constexpr double least = mobile_fraction_min * mobile_fraction_min;
-  const double square = component * component;
-  return square >= least and 1 - square >= least;
+  return std::abs(component) >= mobile_fraction_min
+         and not is_normal(component);
 }
 
 /// @brief True if no displacement of some nodes is prescribed.

@@ -593,7 +593,8 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
     return {std::vector<double>(n, 1), std::vector<double>(n * g, 1)};
   const kernel::Weights w = weights();
   std::vector<double> squares = free_squares(w, free, _paired, g);
-  // A plane of symmetry cuts the master, too
+  // A plane of symmetry cuts the master, too; an edge that is pushed along
+  // a master has friction
   std::vector<std::int8_t> cuts(n * g, 0);
   for (std::size_t e = 0; e < w.values.size(); ++e)
     if (w.values[e] < 0)
@@ -621,7 +622,7 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
       double& square = squares[g * i + k];
       if (not free[std::size_t(_sides.slaves()[i]) * g + k]
           and around[g * i + k]
-          and (cuts[g * i + k] or not is_inclined(normal[3 * i + k])))
+          and (cuts[g * i + k] or is_normal(normal[3 * i + k])))
         square = 0;
       sum += normal[3 * i + k] * normal[3 * i + k] * square;
       found.each[g * i + k] = std::sqrt(square);

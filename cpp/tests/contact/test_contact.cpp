@@ -454,26 +454,30 @@ TEST(Contact, WhatHardlyMovesAlongAnAxisHasNoFrictionThere)
 
 TEST(Contact, ASlaveNodeThatIsHeldWhereItsFacetsMoveHasNoConstraint)
 {
-  // Integrals over its facets move with the nodes beside it
+  // Integrals over its facets move with the nodes beside it. One that is held
+  // along a master that moves is pushed along it: there is friction
   ContactScene scene(2, 0.05);
   const std::int32_t n = scene.sheets.num_slaves, held = 1;
   for (const int axis : {0, 1})
-    for (const bool alone : {true, false})
-    {
-      scene.prescribed.assign(scene.u->size(), 0);
-      for (std::int32_t i = 0; i < n; ++i)
-        scene.prescribed[2 * i + axis] = i == held or not alone;
-      const auto contact = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
-      const law::NodeState& nodes = *contact->nodes();
-      for (std::int32_t i = 0; i < n; ++i)
+    for (const bool cuts_master : {false, true})
+      for (const bool alone : {true, false})
       {
-        // If all of them are held, the master moves
-        const bool is_free = not alone or i != held;
-        EXPECT_EQ(nodes.mobile[2 * i + axis], is_free);
-        EXPECT_EQ(nodes.mobile[2 * i + 1 - axis], 1);
-        EXPECT_EQ(nodes.immobile[i], axis == 1 and not is_free);
+        scene.prescribed.assign(scene.u->size(), 0);
+        for (std::int32_t i = 0; i < scene.sheets.num_nodes(); ++i)
+          scene.prescribed[2 * i + axis]
+              = i < n ? i == held or not alone : cuts_master and alone;
+        const auto contact = scene.contact<SurfaceToSurface>(coulomb(n, 0.5));
+        const law::NodeState& nodes = *contact->nodes();
+        for (std::int32_t i = 0; i < n; ++i)
+        {
+          // If all of them are held, the master moves
+          const bool drops = alone and i == held;
+          EXPECT_EQ(nodes.mobile[2 * i + axis],
+                    not(drops and (cuts_master or axis == 1)));
+          EXPECT_EQ(nodes.mobile[2 * i + 1 - axis], 1);
+          EXPECT_EQ(nodes.immobile[i], axis == 1 and drops);
+        }
       }
-    }
 }
 
 TEST(Contact, AGuideAcrossASlopeIsNoPlaneOfSymmetry)

@@ -134,15 +134,15 @@ def test_a_round_body_that_rolls_keeps_forces():
 STRESS = 18.15
 
 
-@pytest.mark.parametrize(("method", "rows"), [("node-to-surface", 3), ("surface-to-surface", 4)])
-def test_pressure_at_the_edge_of_a_joint(method, rows):
-    """Three or four rows of nodes are closed, and averages of them are a third too low."""
+@pytest.mark.parametrize("method", ["node-to-surface", "surface-to-surface"])
+def test_pressure_at_the_edge_of_a_joint(method):
+    """Three rows of nodes are closed, and averages of them are a third too low."""
     setting = Setting(replace(FACE_SLABS["slice"], layers=10), method=method)
     scene = scheme_1(setting, 0.0909, 0.3, steps=1, progress=False)
     joint = scene.joints[0]
     raw, area = joint.discrete.nodes.pressure, joint.discrete.nodes.area
     p = joint.pressure.x.array[joint.slave_nodes]
-    assert np.sum(joint.discrete.nodes.closed) == 2 * rows
+    assert np.sum(joint.discrete.nodes.closed) == 2 * 3
     assert p.max() == pytest.approx(STRESS, rel=0.05)
     assert p.max() > raw.max()
     assert area @ p == pytest.approx(area @ raw, rel=1e-12)
