@@ -113,8 +113,8 @@ void set_near_null_space(::Mat A,
 
 void set_tolerances(::KSP ksp, double target, int most)
 {
-  check(KSPSetTolerances(ksp, condense::Algebra::rounding, target,
-                         PETSC_DEFAULT, most),
+  check(KSPSetTolerances(ksp, contactx::math::round_off, target, PETSC_DEFAULT,
+                         most),
         "KSPSetTolerances");
 }
 

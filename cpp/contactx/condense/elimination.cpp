@@ -52,7 +52,7 @@ std::array<double, 9> soft_law(const Nodes& nodes, std::size_t s,
         D[3 * i + j] = by[at];
       most = std::max(most, std::abs(D[3 * i + j]));
     }
-  return most > math::zero_round_off * size ? D : std::array<double, 9>{};
+  return most > math::round_off * size ? D : std::array<double, 9>{};
 }
 } // namespace
 

@@ -58,8 +58,7 @@ bool choose(Matrix3d D, std::array<bool, 3>& gives, std::array<bool, 3>& stays)
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       if (stays[i] and others(j)
-          and std::max(std::abs(D(i, j)), std::abs(D(j, i)))
-                  > math::zero_round_off)
+          and std::max(std::abs(D(i, j)), std::abs(D(j, i))) > math::round_off)
         return false;
   return true;
 }

@@ -109,9 +109,8 @@ void Contact::find_rest()
   for (const double v : reference)
     most = std::max(most, std::abs(v));
   // Straight facets have no more than rounding errors
-  if (std::ranges::all_of(
-          _rest, [most](double v)
-          { return std::abs(v) <= math::length_round_off * most; }))
+  if (std::ranges::all_of(_rest, [most](double v)
+                          { return std::abs(v) <= math::round_off * most; }))
     _rest.clear();
 }
 
@@ -383,8 +382,7 @@ bool Contact::has_unknown_motion()
       mesh::extent(_halo->ranks(), at_slaves(_halo->reference()), gdim()));
   bool moves = false;
   _halo->ranks().agree(
-      [&]
-      { moves = master->has_unknown_motion(math::length_round_off * size); });
+      [&] { moves = master->has_unknown_motion(math::round_off * size); });
   const bool touches = std::ranges::any_of(_nodes->status, [](std::int8_t s)
                                            { return s != law::open; });
   // Both are asked on all ranks

@@ -103,8 +103,7 @@ void SlaveNodes::set_weight(std::span<const double> weight)
   double most = 0;
   for (const double w : weight)
     most = std::max(most, std::abs(w));
-  const double least
-      = -math::length_round_off * mesh::largest(_nodes->ranks(), most);
+  const double least = -math::round_off * mesh::largest(_nodes->ranks(), most);
   _nodes->ranks().agree(
       [&]
       {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "slip_weights.h"
+#include "../math/scales.h"
 #include <array>
 #include <cmath>
 
@@ -10,10 +11,6 @@ using namespace contactx::contact;
 
 namespace
 {
-/// Least squared sine of the angle between the directions in which the masters
-/// of a node are spread, for a slope in both
-constexpr double sine_squared_min = 1e-6;
-
 /// What masters of a slave node are in its tangent plane, or on its tangent:
 /// weights, first and second moments
 struct Moments
@@ -110,7 +107,7 @@ Mortar contactx::contact::slip_weights(Mortar now, const MortarSides& sides,
     if (gdim == 2 and aa > 0)
       slope[i] = {d[0] / aa, 0};
     const double area = aa * bb - ab * ab;
-    if (gdim == 3 and area > sine_squared_min * (aa + bb) * (aa + bb))
+    if (gdim == 3 and area > math::negligible_part * (aa + bb) * (aa + bb))
       slope[i]
           = {(bb * d[0] - ab * d[1]) / area, (aa * d[1] - ab * d[0]) / area};
   }

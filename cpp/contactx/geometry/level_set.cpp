@@ -284,8 +284,7 @@ double LevelSet::scene_size(std::span<const double> x, int gdim) const
 
 double LevelSet::ridge_width(std::span<const double> x, int gdim) const
 {
-  return std::max(facet_margin * facet,
-                  math::length_round_off * scene_size(x, gdim));
+  return std::max(facet_margin * facet, math::round_off * scene_size(x, gdim));
 }
 
 std::vector<double> LevelSet::differences(std::span<const double> x,

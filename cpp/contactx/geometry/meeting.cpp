@@ -101,8 +101,7 @@ std::optional<Meeting>
 contactx::geometry::meeting(Planes normal, std::span<const double> distance,
                             int gdim)
 {
-  const double small
-      = math::length_round_off * *std::ranges::max_element(distance);
+  const double small = math::round_off * *std::ranges::max_element(distance);
   for (int count = 1; count <= gdim; ++count)
   {
     Meeting at;

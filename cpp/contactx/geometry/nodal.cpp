@@ -195,7 +195,7 @@ contactx::geometry::unit_normals(std::span<const double> vector,
     // Normals that cancel leave rounding errors, which have no direction
     const double length = std::sqrt(l2);
     for (double& c : n)
-      c = length > math::zero_round_off * area[i] ? c / length : 0;
+      c = length > math::round_off * area[i] ? c / length : 0;
   }
   return normal;
 }

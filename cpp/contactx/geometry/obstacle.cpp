@@ -94,7 +94,7 @@ std::vector<double> Placement::turn(const Placement& to) const
     for (std::size_t j = 0; j < gdim; ++j)
       K[gdim * i + j] = b[i] * a[j] - a[i] * b[j];
   }
-  if (cosine <= -1 + math::zero_round_off)
+  if (cosine <= -1 + math::round_off)
     throw std::invalid_argument(
         "an obstacle turns by 180 degrees within a step, which has no shortest "
         "way: take smaller steps (manual: errors/obstacle-turns)");

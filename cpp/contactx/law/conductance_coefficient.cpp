@@ -3,6 +3,7 @@
 
 #include "conductance_coefficient.h"
 #include "../check.h"
+#include "../math/scales.h"
 #include "../text.h"
 #include <algorithm>
 #include <array>
@@ -15,9 +16,6 @@ using namespace contactx::law;
 
 namespace
 {
-/// Step of the difference quotients relative to the largest value
-constexpr double relative_step = 1e-6;
-
 /// Values plus a number, at least zero; NaN stays.
 std::vector<double> clipped(std::span<const double> values, double by = 0)
 {
@@ -116,7 +114,7 @@ Gradient Coefficient::gradient(std::span<const double> pressure,
     most = mesh::largest(ranks, most);
     if (most == 0)
       continue;
-    const double step = relative_step * most;
+    const double step = math::negligible_part * most;
     auto high = at, low = at;
     high[k] = clipped(at[k], step);
     low[k] = clipped(at[k], -step);

@@ -14,12 +14,9 @@ namespace contactx::math
 inline constexpr double sum_round_off
     = 16 * std::numeric_limits<double>::epsilon();
 
-/// @brief Round-off of a computed length, over the lengths it is made of.
-inline constexpr double length_round_off = 1e-12;
-
-/// @brief Determinant, entry, eigenvalue or cosine that is zero but for
-/// round-off, over its largest terms.
-inline constexpr double zero_round_off = 1e-12;
+/// @brief Length, determinant, entry, eigenvalue, cosine, velocity or residual
+/// that is zero but for round-off, over its largest terms.
+inline constexpr double round_off = 1e-12;
 
 /// @brief Length that is zero up to the error of a solve, over the size of a
 /// facet, a search or the scene.
@@ -45,7 +42,7 @@ inline constexpr double weak_spring = 1e-6;
 /// @param[in] terms Size of the largest terms it is made of.
 inline bool is_zero(double value, double terms)
 {
-  return value <= zero_round_off * terms and value >= -zero_round_off * terms;
+  return value <= round_off * terms and value >= -round_off * terms;
 }
 
 /// @brief Whether a value is as large as the largest one but for round-off.
@@ -60,7 +57,7 @@ inline bool is_largest(double value, double largest)
 /// @param[in] size Size of the facet.
 inline double distance_round_off(double distance, double size)
 {
-  return length_round_off * (distance + size);
+  return round_off * (distance + size);
 }
 
 /// @brief Scales of the scene in a load step.
@@ -79,7 +76,7 @@ struct Scales
   /// @brief Gap up to which nodes touch but for round-off, a length.
   double gap_round_off() const
   {
-    return length_round_off * length + sum_round_off * farthest;
+    return round_off * length + sum_round_off * farthest;
   }
 };
 } // namespace contactx::math

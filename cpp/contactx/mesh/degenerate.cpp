@@ -26,8 +26,8 @@ bool is_degenerate(CellType cell, std::span<const double> x)
 {
   const std::vector<double> found = corner_determinants(cell, x);
   const auto [low, high] = std::ranges::minmax(found);
-  return (low < -math::zero_round_off and high > math::zero_round_off)
-         or std::max(-low, high) <= math::zero_round_off;
+  return (low < -math::round_off and high > math::round_off)
+         or std::max(-low, high) <= math::round_off;
 }
 } // namespace
 

@@ -19,8 +19,6 @@ constexpr const char* retained_multipliers
 // Residual of a predicted solution over the tolerance of a solve, up to which
 // it is taken: Newton's method leaves as much
 constexpr double max_predicted_residual = 300;
-// Residual over right-hand side that no iterate needs to fall below
-constexpr double min_rtol = 1e-11;
 // Failures after which a solver is not tried again: what does not converge
 // twice will not, and each attempt is dear
 constexpr int max_failures = 2;
@@ -241,10 +239,7 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
   {
     // A small part of what loads a stiff body is much for a soft one
     const double weight = K_c->residual_weight(*_problem.bodies(), given);
-    target = std::min(target, std::max(target * weight,
-                                       min_rtol
-                                           * condense::norm(_numbering->ranks(),
-                                                            of_displacements)));
+    target *= std::min(1., weight);
   }
   if (not(fields ? iterate_with_fields(rhs, v, target)
                  : iterate(K_c, is_retained, rhs, v, target)))

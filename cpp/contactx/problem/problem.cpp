@@ -897,7 +897,7 @@ std::string Problem::why_slow(std::span<const double> direction)
     changes = changes or last[k].changes.status + last[k].changes.pairs > 0;
   }
   const double rounding
-      = math::zero_round_off * _loop.convergence().scales().deforming_force();
+      = math::round_off * _loop.convergence().scales().deforming_force();
   if (not(most <= stagnant_residual_ratio * least) or falls or changes
       or least > rounding)
     return {};

@@ -3,6 +3,7 @@
 
 #include "trend.h"
 #include "../math/matrix.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include <algorithm>
 #include <cmath>
@@ -19,8 +20,6 @@ namespace
 constexpr int slope_passes = 2;
 // Rows of facets that the slope of an edge goes inside
 constexpr int slope_rows = 6;
-// Least spread of nodes along a direction over the largest one, squared
-constexpr double least_spread = 1e-8;
 // What a slope explains counts beyond this times what it leaves
 constexpr double beyond_scatter = 2;
 
@@ -204,7 +203,7 @@ Trend::Fit Trend::fit(std::span<const Flow> flows,
     const Vector3d& values = eigen.eigenvalues();
     for (int m = 0; m < 3; ++m)
       if (const Vector3d e = eigen.eigenvectors().col(m);
-          values[m] > least_spread * values[2])
+          values[m] > math::negligible_part * values[2])
         slope += e.dot(b) / values[m] * e;
     std::copy_n(slope.data(), _gdim, fit.slope.begin() + i * _gdim);
     fit.left[i] = std::max(per * s.pp - p * p - slope.dot(b), 0.);

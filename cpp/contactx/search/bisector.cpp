@@ -3,6 +3,7 @@
 
 #include "bisector.h"
 #include "../geometry/shape.h"
+#include "../geometry/smooth.h"
 #include "../math/scales.h"
 #include "select.h"
 #include <cmath>
@@ -10,12 +11,6 @@
 using namespace contactx;
 using namespace contactx::search;
 using geometry::Segment;
-
-namespace
-{
-/// Cosine of the largest angle between successive facets of a curve
-constexpr double curve_cosine_min = 0.7;
-} // namespace
 
 std::optional<Projection> contactx::search::bisector(const Surface& surface,
                                                      std::span<const double> x,
@@ -42,7 +37,7 @@ std::optional<Projection> contactx::search::bisector(const Surface& surface,
         ++count;
         sum = sum + r->normal;
       });
-  if (count != 2 or !(dot(sum, sum) > 2 + 2 * curve_cosine_min))
+  if (count != 2 or !(dot(sum, sum) > 2 + 2 * geometry::cosine_at_edges))
     return std::nullopt;
   const Vector<3> n = (1 / norm(sum)) * sum;
   if (norm(n - q.normal) <= math::negligible_part)

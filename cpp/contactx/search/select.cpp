@@ -81,7 +81,7 @@ std::optional<Projection> beyond_edge(const Surface& surface,
   const double length = norm(around.mean);
   if (!touching)
     nearest.normal = (1 / distance) * nearest.d;
-  else if (length > math::zero_round_off)
+  else if (length > math::round_off)
     nearest.normal = (1 / length) * around.mean;
   nearest.gap = distance;
   return nearest;

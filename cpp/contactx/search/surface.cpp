@@ -4,6 +4,7 @@
 #include "surface.h"
 #include "../geometry/closest_point.h"
 #include "../geometry/gather.h"
+#include "../math/scales.h"
 #include <stdexcept>
 
 using namespace contactx;
@@ -11,9 +12,6 @@ using namespace contactx::search;
 
 namespace
 {
-/// Least area of a facet with a normal, over a power of its diameter
-constexpr double jacobian_min = 1e-14;
-
 template <std::size_t D>
 Vector<3> pad(const std::array<double, D>& a)
 {
@@ -37,7 +35,7 @@ std::optional<Projection> make(std::int32_t f, const geometry::Nodes<F>& x,
 {
   const auto fr = geometry::frame<F>(x, xi);
   const double size = geometry::diameter<F>(x);
-  if (!(fr.jacobian > jacobian_min * (F::gdim == 2 ? size : size * size)))
+  if (!(fr.jacobian > math::round_off * (F::gdim == 2 ? size : size * size)))
     return std::nullopt;
   Projection q{f,   feature, {}, pad(d), pad(fr.n), dot(fr.n, d), F::excess(xi),
                size};

@@ -26,9 +26,9 @@ using mesh::Reduction;
 
 namespace
 {
-// Force along free modes, over the residual, up to which the step has no rigid
-// motion
-constexpr double idle_force_max = 1e-3;
+// Force along free modes, over the forces that it is the sum of, up to which
+// they balance: the step has no rigid motion, contact forces can hold the loads
+constexpr double balanced_force_max = 1e-3;
 // Resistance of closed nodes to a motion, over the largest, below which it is
 // that of the corners between facets: squares of the sines of their angles
 constexpr double corner_resistance = 1e-3;
@@ -38,9 +38,6 @@ constexpr double run_fraction = 0.1;
 // Force along motions that little resists, over the contact forces, that
 // supports may take
 constexpr double held_force_max = 1e-2;
-// Force along free modes, over that of the loads, that contact forces must
-// leave where they cannot balance it
-constexpr double unsupported_rel_tol = 1e-3;
 // Forces that are tried: in 3D a cone has more of them than its edges
 constexpr int max_rays = 200;
 
@@ -536,7 +533,7 @@ void FreeBodies::add_springs(const Motions& motions, std::span<const double> x,
   const double size
       = std::sqrt(mesh::total(ranks(), math::column(forces).squaredNorm()));
   const bool idle = (motions.N.transpose() * math::column(pull)).norm()
-                    <= idle_force_max * size;
+                    <= balanced_force_max * size;
   // Friction resists motions across the slip
   if (idle and not has_friction())
     keep_in_place(std::move(fields));
@@ -699,7 +696,7 @@ bool FreeBodies::may_balance(const Forces& forces, double reach) const
   VectorXd shares(0), left = needed;
   for (int k = 0; k < max_rays; ++k)
   {
-    if (left.norm() <= unsupported_rel_tol * needed.norm())
+    if (left.norm() <= balanced_force_max * needed.norm())
       return true;
     const VectorXd motion = N * left;
     const std::vector<double> force
@@ -1054,9 +1051,9 @@ FreeBodies::Motions FreeBodies::free_basis(const std::vector<Rows>& rows,
               = bases[b] * by_columns.segment(first[b], bases[b].cols());
       }
   };
-  add_between(-infinity, math::zero_round_off);
+  add_between(-infinity, math::round_off);
   const Eigen::Index num_free = std::ssize(motions);
-  add_between(math::zero_round_off, corner_resistance);
+  add_between(math::round_off, corner_resistance);
   MatrixXd N(bases.size() * _modes->modes_per_body(), motions.size());
   for (std::size_t k = 0; k < motions.size(); ++k)
     N.col(k) = motions[k];

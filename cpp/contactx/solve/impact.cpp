@@ -3,6 +3,7 @@
 
 #include "impact.h"
 #include "../check.h"
+#include "../math/scales.h"
 #include "../math/vec.h"
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@ using namespace contactx::solve;
 
 namespace
 {
-// Relative velocity, over the largest velocity, that is round-off
-constexpr double velocity_rel_tol = 1e-14;
 // Bounds of loops, reached with redundant constraints alone
 constexpr int max_solves = 30;
 constexpr int max_cg_iterations = 1000;
@@ -87,7 +86,7 @@ public:
     for (const Node& node : _nodes)
       for (const double v : node.target)
         largest = std::max(largest, std::abs(v));
-    _small = velocity_rel_tol * mesh::largest(_halo.ranks(), largest)
+    _small = math::round_off * mesh::largest(_halo.ranks(), largest)
              * std::sqrt(mesh::total(_halo.ranks(),
                                      static_cast<double>(_nodes.size())));
   }
@@ -161,11 +160,11 @@ public:
         {
           const double tangential = node.sum[k] - p * node.normal[k];
           more[i][k] = p * node.along[k] - tangential;
-          changes = changes
-                    or std::abs(more[i][k])
-                           > velocity_rel_tol * std::abs(p)
-                                     * std::abs(node.along[k])
-                                 + std::abs(tangential) * velocity_rel_tol;
+          changes
+              = changes
+                or std::abs(more[i][k])
+                       > math::round_off * std::abs(p) * std::abs(node.along[k])
+                             + std::abs(tangential) * math::round_off;
         }
       for (int k = 0; k < 3; ++k)
         node.sum[k] += more[i][k];

@@ -52,13 +52,10 @@ constexpr double trial_residual = 1e-2, trial_defect = 0.1;
 /// Mean product of pairs, over the product of their means, at which one is
 /// tried in any case, and then again
 constexpr double trial_level = 1e-6, trial_level_ratio = 1e-3;
-/// Way since the step's start over the shortest one of the active set's
-/// iterates, from which on the displacements are those of the latter: bodies
-/// that nothing held have run away
+/// Way of the active set's iterate since the step's start over the shortest one
+/// before it, and forces there that nothing holds over those at the start, from
+/// which on the path begins elsewhere: bodies have run away
 constexpr double escape_ratio = 1e2;
-/// Forces that nothing holds at the active set's iterate, over those at the
-/// step's start, from which on the displacements are those of the latter
-constexpr double residual_ratio = 1e2;
 /// Longest part of a step that leads nowhere
 constexpr double short_step = 0.01;
 /// Iterates without progress, and iterates, after which the path is given up
@@ -312,7 +309,7 @@ void InteriorPoint::begin()
   _system->take(_start);
   const double here = unbalanced() + _pressure_scale * area();
   _system->take(from);
-  if (_is_second or unbalanced() > residual_ratio * here)
+  if (_is_second or unbalanced() > escape_ratio * here)
     _system->take(_start);
   _shown.clear();
   _part = few_fraction;

@@ -18,9 +18,6 @@ using mesh::Reduction;
 
 namespace
 {
-// Stiffness against a rigid motion, over the diagonal's, above which the body
-// is supported: round-off is less than 1e-15
-constexpr double support_stiffness_min = 1e-13;
 // The same up to which the body may move far enough to touch others
 constexpr double weak_support_max = 1e-3;
 
@@ -223,7 +220,7 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
   for (std::size_t b = 0; b < count(); ++b)
     if (shifts[b].cols() > 0)
       sprung[b] = against_shifts[b].values.cwiseAbs().maxCoeff()
-                  > support_stiffness_min * against_shifts[b].scale;
+                  > math::round_off * against_shifts[b].scale;
   std::vector<MatrixXd> free = unconstrained,
                         weak(count(), MatrixXd::Zero(m, 0));
   for (std::size_t b = 0; b < count(); ++b)
@@ -241,7 +238,7 @@ void RigidModes::update(Bulk& bulk, std::span<const double> x)
     for (Eigen::Index k = 0; k < r.values.size(); ++k)
     {
       const double size = std::abs(r.values[k]);
-      if (size <= support_stiffness_min * r.scale)
+      if (size <= math::round_off * r.scale)
         none.push_back(k);
       else if (size <= weak_support_max * r.scale)
       {

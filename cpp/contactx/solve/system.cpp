@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "system.h"
+#include "../math/scales.h"
 #include "held_motions.h"
 #include <algorithm>
 #include <array>
@@ -14,9 +15,6 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Relative difference from a Dirichlet value that has no share in other rows
-constexpr double lift_tolerance = 1e-15;
-
 double largest_size(std::span<const double> values)
 {
   double most = 0;
@@ -237,7 +235,8 @@ void System::residual(std::span<double> b)
   std::array most{largest_size(defect), largest_size(_bulk->displacements()),
                   largest_size(other_defect), largest_size(fields_values())};
   _halo->ranks().reduce(std::span<double>(most), mesh::Reduction::largest);
-  if (most[0] > lift_tolerance * most[1] or most[2] > lift_tolerance * most[3])
+  if (most[0] > math::sum_round_off * most[1]
+      or most[2] > math::sum_round_off * most[3])
   {
     // Dirichlet values that the displacements do not have yet, in other rows
     const std::span<const double> lifted = _bulk->lifted();

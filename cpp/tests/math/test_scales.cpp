@@ -24,10 +24,10 @@ TEST(Scales, ZeroAndEqualAreRelativeInAnyUnit)
 {
   for (const double unit : {1e-20, 1., 1e20})
   {
-    EXPECT_TRUE(is_zero(0.9 * zero_round_off * unit, unit));
-    EXPECT_TRUE(is_zero(-0.9 * zero_round_off * unit, unit));
-    EXPECT_FALSE(is_zero(1.1 * zero_round_off * unit, unit));
-    EXPECT_FALSE(is_zero(-1.1 * zero_round_off * unit, unit));
+    EXPECT_TRUE(is_zero(0.9 * round_off * unit, unit));
+    EXPECT_TRUE(is_zero(-0.9 * round_off * unit, unit));
+    EXPECT_FALSE(is_zero(1.1 * round_off * unit, unit));
+    EXPECT_FALSE(is_zero(-1.1 * round_off * unit, unit));
     EXPECT_TRUE(is_largest((1 - 0.9 * equal_rel_tol) * unit, unit));
     EXPECT_FALSE(is_largest((1 - 1.1 * equal_rel_tol) * unit, unit));
     EXPECT_DOUBLE_EQ(distance_round_off(unit, 2 * unit), 3e-12 * unit);

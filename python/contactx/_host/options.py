@@ -15,7 +15,7 @@ import numpy as np
 from contactx._host import compat
 
 # Relative residual below which a linear solve cannot get, for round-off
-ROUNDING = 1e-13
+ROUNDING = 1e-12
 
 # Dofs of the displacement from which on multigrid is faster than a direct solver, by the
 # dimension: without friction, and with it, where systems are not symmetric (bench_solvers)

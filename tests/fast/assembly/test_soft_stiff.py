@@ -112,24 +112,26 @@ def test_a_coarse_model_has_the_same_answer(cell, law, sliding, with_model):
     assert not any(report.uncondensed for report in found[2])
 
 
-def test_no_solve_is_finer_than_an_iterate_needs(monkeypatch):
-    """However soft the softest body is, of which the residual of the stiff one is a small part."""
-    targets = []
+def test_the_softest_body_decides_how_fine_a_solve_is(monkeypatch):
+    """The residual of the stiff one is far larger; rounding bounds what is asked for."""
+    found = []
     solve = Hierarchy.solve
 
     def note(self, b, x, is_symmetric, target, most):
-        targets.append(target / np.linalg.norm(b))
-        return solve(self, b, x, is_symmetric, target, most)
+        iterations = solve(self, b, x, is_symmetric, target, most)
+        found.append((target / np.linalg.norm(b), iterations[0]))
+        return iterations
 
     monkeypatch.setattr(Hierarchy, "solve", note)
+    firsts = []
     for stiffness in (1e-6, 1e-9):
         scene = Blocks(CellType.hexahedron, n_upper=3, n_lower=4, stiffness=stiffness)
         options = {"pc_type": "condensed", "snes_rtol": 1e-6}
-        targets.clear()
+        found.clear()
         scene.problem(scene.contact("small"), petsc_options=options).solve()
-        assert targets[0] < 1e-7
-        assert min(targets) >= 0.999e-11
-    assert targets[0] == pytest.approx(1e-11)
+        firsts.append(found[0])
+    assert firsts[1][0] < 1e-2 * firsts[0][0] < 1e-9
+    assert firsts[1][1] <= firsts[0][1] + 5
 
 
 def test_factors_serve_where_nothing_changes():

@@ -112,7 +112,7 @@ public:
   /// @param[in] is_symmetric Whether by CG; else by GMRES, preconditioned from
   /// the right.
   /// @param[in] target What the norm of the residual must fall below; a
-  /// relative residual of `rounding` does, too.
+  /// relative residual of `math::round_off` does, too.
   /// @param[in] most Most iterations.
   virtual Iterations solve(std::span<const double> b, std::span<double> x,
                            bool is_symmetric, double target, int most) = 0;
@@ -201,9 +201,6 @@ struct FieldBlocks
 class Algebra
 {
 public:
-  /// Relative residual below which a linear solve cannot get, for round-off
-  static constexpr double rounding = 1e-13;
-
   virtual ~Algebra() = default;
 
   /// @brief Assemble the bulk's Jacobian if the state is another than that of

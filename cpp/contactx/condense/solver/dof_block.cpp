@@ -18,7 +18,7 @@ bool is_transposed(Algebra& algebra, const Matrix& L, const Matrix& R)
   const double size = std::max(algebra.norm(L), algebra.norm(R));
   const MatrixPtr difference = algebra.transpose(R);
   algebra.add(*difference, -1, L);
-  return algebra.norm(*difference) <= math::zero_round_off * size;
+  return algebra.norm(*difference) <= math::round_off * size;
 }
 } // namespace
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 
 #include "field_split.h"
+#include "../../math/scales.h"
 #include <algorithm>
 #include <cmath>
 
@@ -76,7 +77,7 @@ bool FieldSplitSolver::solve(Span rhs, Span weights, std::span<double> x,
   for (std::size_t i = 0; i < _weights.size(); ++i)
     b[n + i] *= _weights[i];
   const double size = norm(ranks, b);
-  const double goal = std::max(target, Algebra::rounding * size);
+  const double goal = std::max(target, math::round_off * size);
   const double reduction
       = size > goal and goal > 0 ? std::max(1.0, std::log(size / goal)) : 1;
   const auto iterate = [&]

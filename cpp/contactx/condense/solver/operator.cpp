@@ -245,7 +245,7 @@ double CondensedOperator::reduction(std::span<const double> rhs,
       residual[i] -= rhs[i];
     start = norm(ranks, residual);
   }
-  const double goal = std::max(target, Algebra::rounding * size);
+  const double goal = std::max(target, math::round_off * size);
   return start > goal and goal > 0 ? std::max(1.0, std::log(start / goal)) : 1;
 }
 

@@ -130,7 +130,7 @@ bool SoftStiffSolver::iterate(std::span<const double> rhs, std::span<double> v,
 {
   mesh::Ranks& ranks = _K_c->numbering().ranks();
   using End = Iterations::End;
-  const double goal = std::max(target, Algebra::rounding * norm(ranks, rhs));
+  const double goal = std::max(target, math::round_off * norm(ranks, rhs));
   const double otherwise = _renewal + _rate * reduction;
   std::vector<double> residuals;
   // With old factors iterations end where those that are left by their last
