@@ -27,10 +27,9 @@ constexpr double force_error_max = 0.05;
 /// nodes resolve too little of it. At corners of punches, which are right, it
 /// was up to 0.32; a ball beside an edge had half of the force at 1.6.
 constexpr double unseen_force_max = 1;
-/// Largest angle, in degrees, between a slave facet and a face of the master
-/// whose edge is pressed as the face is
-constexpr double face_angle_max = 15;
-constexpr double degree = std::numbers::pi / 180;
+/// Largest angle between a slave facet and a face of the master whose edge is
+/// pressed as the face is, radians
+constexpr double face_angle_max = std::numbers::pi / 12;
 } // namespace
 
 double EdgeForce::ratio() const
@@ -50,8 +49,9 @@ std::string EdgeForce::words() const
                   + ", between its nodes, which take less force than that needs"
             : "edges of the master take " + number_text(100 * share, 3)
                   + " % of the force along normals of their faces, "
-                  + number_text(
-                      2 * std::asin(std::min(1., off / share / 2)) / degree, 2)
+                  + number_text(360 / std::numbers::pi
+                                    * std::asin(std::min(1., off / share / 2)),
+                                2)
                   + " degrees off those of the slave in the mean, most at "
                   + point_text(at, norm(vector_at(at, 0, int(at.size()))));
   return what
@@ -139,7 +139,7 @@ contactx::audit::edge_force(mesh::Halo& halo, const contact::Contact& contact,
           = std::max(fit[node], -dot(vector_at(faces, f, g), facing[node]));
   for (const MasterBelow& its : below)
     if (const double needed = its.stiffness * its.depth;
-        fit[its.node] < std::cos(face_angle_max * degree) and needed > worst[4])
+        fit[its.node] < std::cos(face_angle_max) and needed > worst[4])
     {
       worst[4] = needed;
       worst[5] = its.depth;

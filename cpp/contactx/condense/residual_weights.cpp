@@ -9,9 +9,6 @@
 
 namespace
 {
-/// Stiffness of a body, over the softest one's, up to which its residual has no
-/// weight
-constexpr double equal_stiffness_ratio = 10;
 } // namespace
 
 double contactx::condense::residual_weight(const mesh::Bodies& bodies,
@@ -53,7 +50,7 @@ double contactx::condense::residual_weight(const mesh::Bodies& bodies,
   {
     // Of a body that is prescribed as a whole nothing is to be found
     const double part = sums[b] > 0 ? softest * sums[b + 1] / sums[b] : 1.0;
-    const double w = equal_stiffness_ratio * part < 1 ? part : 1.0;
+    const double w = alike_stiffness_ratio * part < 1 ? part : 1.0;
     all += sums[b + 2];
     counted += w * w * sums[b + 2];
   }

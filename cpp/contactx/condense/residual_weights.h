@@ -8,6 +8,9 @@
 
 namespace contactx::condense
 {
+/// Ratio of the stiffnesses of two bodies up to which they count as alike
+inline constexpr double alike_stiffness_ratio = 10;
+
 /// @brief Part of a residual that counts for the softest body; collective.
 ///
 /// A residual r of a body of stiffness k leaves an error of its displacements

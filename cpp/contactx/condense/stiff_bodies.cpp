@@ -3,6 +3,7 @@
 
 #include "stiff_bodies.h"
 #include "../check.h"
+#include "residual_weights.h"
 #include <algorithm>
 #include <cmath>
 
@@ -11,15 +12,12 @@ using namespace contactx::condense;
 
 namespace
 {
-/// Least stiffness of a stiff body over that of a soft one
-constexpr double stiffness_ratio_min = 10;
-
 /// Stiffness from which on a body is stiff, by the widest gap; infinite where
 /// it is too narrow
 double limit(std::vector<double> known)
 {
   std::ranges::sort(known);
-  double ratio = stiffness_ratio_min, found = INFINITY;
+  double ratio = alike_stiffness_ratio, found = INFINITY;
   for (std::size_t i = 1; i < known.size(); ++i)
     if (known[i] >= ratio * known[i - 1])
     {

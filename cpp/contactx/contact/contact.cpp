@@ -23,9 +23,6 @@ std::string_view name_of(Sliding sliding)
   return sliding == Sliding::small ? "small" : "finite";
 }
 
-/// Area given to a slave node without any, over the largest one
-constexpr double empty_area_fraction = 1e-9;
-
 void require(bool fits, const char* what)
 {
   if (not fits)
@@ -210,7 +207,6 @@ void Contact::begin_step()
 {
   _skipped_searches = 0;
   _multiplier = _nodes->multiplier;
-  _law->begin_step();
   _master->rebuild();
   freeze(false);
   turn_tractions();
@@ -322,7 +318,7 @@ void Contact::leave_out_empty()
     if (area[i] == 0)
     {
       _is_left_out[i] = 1;
-      _filler[i] = empty_area_fraction * most;
+      _filler[i] = math::negligible_part * most;
     }
 }
 

@@ -141,10 +141,8 @@ void integrate(const SlaveFacet<Part<SlaveWhole>>& slave,
             {
               const Shape<S> s = slave.map.at(p);
               const Shape<M> m = map.at(p);
-              // Largest excess of local coordinates: on degenerate
-              // quadrilaterals round-off may lead outside of them
-              constexpr double excess_max = 0.1;
-              if (s.jacobian > 0 and M::excess(m.xi) <= excess_max)
+              // On degenerate quadrilaterals round-off may lead outside
+              if (s.jacobian > 0 and M::excess(m.xi) <= facet_margin)
                 f(s, m, weight * slave.reference_area(s));
             });
 }

@@ -18,9 +18,10 @@ using contactx::law::NodeState;
 
 namespace
 {
-// Growth of the largest trial friction of a reversal after each cycle of the
-// active set
-constexpr double reach_growth = 1e3;
+// Trial friction over its bound up to which a node whose slip reverses sticks
+// first. From 3 to 100 iterations differ by little, without a limit they are
+// twice as many
+constexpr double reversal_reach = 10;
 
 /// What is thrown for other multipliers than those of a law.
 void check_multipliers(const Law& law, const NodeState& nodes)
@@ -108,10 +109,6 @@ void Frictionless::evaluate(NodeState& nodes) const
                            nodes.status, nodes.value, nodes.by_multiplier,
                            nodes.by_gap);
 }
-
-void Coulomb::begin_step() { _reach = _initial_reach; }
-
-void Coulomb::allow_larger_friction() { _reach *= reach_growth; }
 
 void Coulomb::set_friction(std::span<const double> friction)
 {
@@ -248,7 +245,7 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
                      found.bound,
                      {},
                      nodes.tangential_ratio},
-                    _reach, nodes.status);
+                    reversal_reach, nodes.status);
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
   {

@@ -30,13 +30,6 @@ public:
   /// @brief True if pairs are always those of the reference configuration.
   virtual bool is_tied() const { return false; }
 
-  /// @brief Start a step: what iterates of the last one have shown does not
-  /// count.
-  virtual void begin_step() {}
-
-  /// @brief Accept larger trial frictions, where the active set cycles.
-  virtual void allow_larger_friction() {}
-
   /// @brief Set each node's status from its multiplier, gap and slip.
   /// @param[in,out] nodes Slave nodes.
   /// @param[in] ranks The ranks, all of which take part.
@@ -98,18 +91,12 @@ public:
   explicit Coulomb(BoundFunction bound) : _bound(std::move(bound)) {}
 
   std::string_view name() const override { return "frictional"; }
-  void begin_step() override;
 
   /// @brief Take what accepted steps have slipped, which a bound counts, too.
   void follow(std::shared_ptr<const SlipHistory> history)
   {
     _history = std::move(history);
   }
-
-  /// @copydoc Law::allow_larger_friction
-  ///
-  /// A node that friction moves far may have been deformed by it after all.
-  void allow_larger_friction() override;
 
   /// @brief Take the coefficients of friction, which count from now on.
   /// @param[in] friction Coefficients (shape=(n)).
@@ -142,23 +129,17 @@ public:
   ///
   /// At the friction bound a node that slips keeps slipping. One that closes
   /// repeatedly with slip, which opens it, sticks every fourth time. A node
-  /// whose slip reverses sticks first, and slips at the second reversal: one
-  /// that opens only while it slips back would alternate without end.
+  /// whose slip reverses sticks and slips in turn: one that opens only while it
+  /// slips back would alternate without end.
   std::int32_t set_status(NodeState& nodes, mesh::Ranks& ranks) const override;
   void evaluate(NodeState& nodes) const override;
 
 private:
   Bounds bounds(const NodeState& nodes, std::span<const double> pressure) const;
 
-  // Trial friction over its bound up to which a node whose slip reverses sticks
-  // first. Measured: 3 to 100 differ by little, without a limit it is twice
-  // the work
-  static constexpr double _initial_reach = 10;
-
   BoundFunction _bound;
   std::shared_ptr<const SlipHistory> _history;
   std::vector<double> _friction;
-  double _reach = _initial_reach;
 };
 
 /// @brief Slave nodes keep their place in the frame of their facet: those with

@@ -6,6 +6,7 @@
 #include "../geometry/middle.h"
 #include "../geometry/shape.h"
 #include "../math/scales.h"
+#include "../math/vec.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,9 +16,6 @@ using namespace contactx::search;
 
 namespace
 {
-/// In place of a sine, larger than any: all normals are in the cone
-constexpr double no_cone = 2;
-
 /// Length of the vector from a box to another one, zero where they meet.
 double distance(std::span<const double> low, std::span<const double> high,
                 std::span<const double> from, std::span<const double> to)
@@ -31,7 +29,8 @@ double distance(std::span<const double> low, std::span<const double> high,
   return std::sqrt(d2);
 }
 
-/// Axis and sine of half the angle of a cone around the facets' normals.
+/// Axis and sine of half the angle of a cone around the facets' normals;
+/// infinite where all normals are in it.
 /// Normals within a facet are positive combinations of those at its corners.
 std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
                                   std::span<const double> x)
@@ -53,7 +52,7 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   }
   const double length = norm(axis);
   if (!(length > 0))
-    return {{}, no_cone};
+    return {{}, infinity};
   axis = (1 / length) * axis;
   double cosine = 1;
   for (const Vector<3>& n : normals)
@@ -61,7 +60,7 @@ std::pair<Vector<3>, double> cone(const geometry::FacetList& facets,
   // All normals oppose a point's unless its own is within 90 degrees less that
   // angle of the axis
   const double sine
-      = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : no_cone;
+      = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : infinity;
   // Wider, as boxes are, so that round-off hides no rank
   return {axis, sine + math::equal_rel_tol};
 }

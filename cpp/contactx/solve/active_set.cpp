@@ -307,9 +307,7 @@ void ActiveSet::note(double residual)
   std::vector<std::span<const std::int8_t>> status;
   for (const auto& c : _contacts)
     status.push_back(c->nodes()->status);
-  if (_guard.note(fingerprint(_halo->ranks(), status), residual))
-    for (const auto& c : _contacts)
-      c->law()->allow_larger_friction();
+  _guard.note(fingerprint(_halo->ranks(), status), residual);
 }
 
 bool ActiveSet::hide_penetration()

@@ -31,9 +31,9 @@ constexpr double movement_fraction = 0.3;
 constexpr double told_gap = 1e-3;
 /// Pressures and tractions at the start, over the scale and the bound
 constexpr double traction_fraction = 0.5;
-/// Power of the affine step's success that the corrector aims at, and its
-/// bound: Mehrotra's rule
-constexpr double centring_power = 3, success_min = 1e-3;
+/// Power of the affine step's success that the corrector aims at: Mehrotra's
+/// rule
+constexpr double centring_power = 3;
 /// Difference of a node's indicators, from -1 to 1 at a solution, below which
 /// it is in doubt
 constexpr double doubtful_difference = 0.6;
@@ -630,7 +630,7 @@ void InteriorPoint::correct(std::span<const double> dx)
   for (std::size_t k = 0; k < before.size(); ++k)
     _system->contacts()[k]->nodes()->interior = std::move(before[k]);
   const double centring = std::min(
-      1.0, std::pow(std::max(after / _product, success_min), centring_power));
+      1.0, std::pow(std::max(after / _product, 0.0), centring_power));
   for (std::size_t k = 0; k < steps.size(); ++k)
   {
     auto& in = _system->contacts()[k]->nodes()->interior;

@@ -322,11 +322,18 @@ Verdict Loop::judge_path(double rtol, double atol, std::span<double> b)
       update_active_set(false);
       if (compare(rtol, atol, b))
         return Verdict::solution;
-      // Where nothing can balance a body neither will
-      if (not _bodies->may_balance(_forces, _path.reach()))
-        return Verdict::unbalanced;
+      // Where nothing can balance a body neither will, unless iterates have
+      // thrown it off
+      const bool is_held = _bodies->may_balance(_forces, _path.reach());
       if (not _path.begins_again())
-        return Verdict::goes_on;
+        return is_held ? Verdict::goes_on : Verdict::unbalanced;
+      if (not is_held)
+      {
+        _active_set.pair();
+        compare(rtol, atol, b);
+        if (not _bodies->may_balance(_forces, _path.reach()))
+          return Verdict::unbalanced;
+      }
     }
     _active_set.pair();
     _path.predict();
@@ -425,11 +432,10 @@ void Loop::take_back()
 {
   if (not _last or not _active_set.shortens())
     return;
-  constexpr double part = CycleGuard::step_fraction;
   std::vector<double> x(_system->size());
   _system->unknowns(x);
   for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] = part * x[i] + (1 - part) * (*_last)[i];
+    x[i] = std::lerp((*_last)[i], x[i], CycleGuard::step_fraction);
   _system->take(x);
 }
 

@@ -17,9 +17,6 @@ using Values = std::vector<double>;
 // Number of last steps that are kept, and of those whose increments are
 // combined
 constexpr std::size_t num_steps_kept = 4, num_steps_combined = 2;
-// Norm of the residual, relative to the right-hand side, above which a
-// combination is not used
-constexpr double max_residual_fraction = 0.5;
 // Relative distance of a step's load from the multiples of this one's, up to
 // which loads are proportional
 constexpr double max_load_deviation = 0.1;
@@ -170,6 +167,5 @@ void Predictor::combine(CondensedOperator& K_c, std::span<const double> factors,
     add(left, -factor, product);
     basis.emplace_back(std::move(vector), std::move(product));
   }
-  if (norm(ranks, left) <= max_residual_fraction * norm(ranks, rhs))
-    std::ranges::copy(start, v.begin());
+  std::ranges::copy(start, v.begin());
 }
