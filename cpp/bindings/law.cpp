@@ -36,6 +36,7 @@ void contactx_bindings::law(py::module_& m)
       .def_property_readonly("name", &Law::name)
       .def_property_readonly("is_vector", &Law::is_vector)
       .def_property_readonly("is_tied", &Law::is_tied)
+      .def("begin_step", &Law::begin_step)
       .def("evaluate", &Law::evaluate, py::arg("state"));
   py::class_<Frictionless, Law, std::shared_ptr<Frictionless>>(
       m, "Frictionless", "Unilateral contact")

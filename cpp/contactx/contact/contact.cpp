@@ -207,6 +207,7 @@ void Contact::begin_step()
 {
   _skipped_searches = 0;
   _multiplier = _nodes->multiplier;
+  _law->begin_step();
   _master->rebuild();
   freeze(false);
   turn_tractions();

@@ -3,6 +3,7 @@
 
 #include "law.h"
 #include "../math/scales.h"
+#include "../math/vec.h"
 #include "../text.h"
 #include "coulomb.h"
 #include "slip_history.h"
@@ -201,7 +202,7 @@ std::vector<double> Coulomb::friction(const NodeState& nodes) const
 double Coulomb::friction_max() const
 {
   if (_bound)
-    return std::numeric_limits<double>::infinity();
+    return infinity;
   return _friction.empty() ? 0 : *std::ranges::max_element(_friction);
 }
 
@@ -245,7 +246,7 @@ std::int32_t Coulomb::set_status(NodeState& nodes, mesh::Ranks& ranks) const
                      found.bound,
                      {},
                      nodes.tangential_ratio},
-                    reversal_reach, nodes.status);
+                    _has_cycled ? infinity : reversal_reach, nodes.status);
   std::int32_t changed = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
   {

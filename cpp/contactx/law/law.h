@@ -30,6 +30,14 @@ public:
   /// @brief True if pairs are always those of the reference configuration.
   virtual bool is_tied() const { return false; }
 
+  /// @brief Start a step: what iterates of the last one have shown does not
+  /// count.
+  virtual void begin_step() {}
+
+  /// @brief Accept any trial friction in this step, where the active set
+  /// cycles.
+  virtual void allow_any_friction() {}
+
   /// @brief Set each node's status from its multiplier, gap and slip.
   /// @param[in,out] nodes Slave nodes.
   /// @param[in] ranks The ranks, all of which take part.
@@ -91,6 +99,12 @@ public:
   explicit Coulomb(BoundFunction bound) : _bound(std::move(bound)) {}
 
   std::string_view name() const override { return "frictional"; }
+  void begin_step() override { _has_cycled = false; }
+
+  /// @copydoc Law::allow_any_friction
+  ///
+  /// A node that friction moves far may have been deformed by it after all.
+  void allow_any_friction() override { _has_cycled = true; }
 
   /// @brief Take what accepted steps have slipped, which a bound counts, too.
   void follow(std::shared_ptr<const SlipHistory> history)
@@ -140,6 +154,7 @@ private:
   BoundFunction _bound;
   std::shared_ptr<const SlipHistory> _history;
   std::vector<double> _friction;
+  bool _has_cycled = false;
 };
 
 /// @brief Slave nodes keep their place in the frame of their facet: those with

@@ -19,7 +19,8 @@ inline constexpr double sum_round_off
 inline constexpr double round_off = 1e-12;
 
 /// @brief Length that is zero up to the error of a solve, over the size of a
-/// facet, a search or the scene.
+/// facet, a search or the scene; difference from a Dirichlet value, over the
+/// largest one.
 inline constexpr double solved_length_tol = 1e-10;
 
 /// @brief Relative difference of values that are equal in exact arithmetic,

@@ -8,9 +8,9 @@ using namespace contactx::solve;
 
 namespace
 {
-/// Bounds of the reduction of the residual by an iterate while the active set
-/// changes, relative
-constexpr double next_residual_min = 1e-5, next_residual_max = 0.1;
+/// Part of the residual that an iterate leaves at most while the active set
+/// changes
+constexpr double next_residual_max = 0.1;
 /// The upper bound in a step's first iterate. What is left of a prescribed
 /// displacement is large against the forces of contact: it would decide which
 /// nodes close
@@ -47,8 +47,7 @@ void Accuracy::set(double residual, double tolerance, double changing,
   else if (not settled)
   {
     const double most = _solves == 0 ? first_residual_max : next_residual_max;
-    left = std::max(left,
-                    std::clamp(changing, next_residual_min, most) * residual);
+    left = std::max(left, std::min(changing, most) * residual);
     left = std::min(left,
                     (_has_path ? forces_left_friction : forces_left) * forces);
   }

@@ -307,7 +307,9 @@ void ActiveSet::note(double residual)
   std::vector<std::span<const std::int8_t>> status;
   for (const auto& c : _contacts)
     status.push_back(c->nodes()->status);
-  _guard.note(fingerprint(_halo->ranks(), status), residual);
+  if (_guard.note(fingerprint(_halo->ranks(), status), residual))
+    for (const auto& c : _contacts)
+      c->law()->allow_any_friction();
 }
 
 bool ActiveSet::hide_penetration()

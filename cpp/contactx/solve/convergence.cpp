@@ -134,8 +134,9 @@ double Convergence::excess_of_fields(std::span<const double> b, double rtol)
     if (r > 0)
       excess = std::max(excess, r / allowed);
     if (largest[2 * f] > 0)
-      excess = std::max(excess, largest[2 * f]
-                                    / (dirichlet_rel_tol * largest[2 * f + 1]));
+      excess = std::max(excess,
+                        largest[2 * f]
+                            / (math::solved_length_tol * largest[2 * f + 1]));
   }
   return excess;
 }

@@ -9,9 +9,6 @@
 
 namespace contactx::solve
 {
-/// @brief Largest difference from a Dirichlet value, over the largest value.
-inline constexpr double dirichlet_rel_tol = 1e-10;
-
 /// @brief Compares a residual with the forces of the problem.
 ///
 /// The residual is relative to the forces of the bulk: in equilibrium the

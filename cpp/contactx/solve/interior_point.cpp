@@ -4,6 +4,7 @@
 #include "interior_point.h"
 #include "../law/cone.h"
 #include "../mesh/extent.h"
+#include "step_length.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,8 +57,6 @@ constexpr double trial_level = 1e-6, trial_level_ratio = 1e-3;
 /// before it, and forces there that nothing holds over those at the start, from
 /// which on the path begins elsewhere: bodies have run away
 constexpr double escape_ratio = 1e2;
-/// Longest part of a step that leads nowhere
-constexpr double short_step = 0.01;
 /// Iterates without progress, and iterates, after which the path is given up
 constexpr int max_poor_iterates = 4, max_iterations = 40;
 
@@ -685,7 +684,7 @@ bool InteriorPoint::may_end(double residual)
   if (_has_stepped and _iterations > 1 and not(_product < _before_product)
       and not(residual < _residual))
     ++_poor;
-  if (_has_stepped and std::max(_lengths[0], _lengths[1]) < short_step)
+  if (_has_stepped and std::max(_lengths[0], _lengths[1]) < negligible_step)
     ++_poor;
   _before_product = _product;
   _residual = residual;

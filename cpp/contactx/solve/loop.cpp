@@ -471,7 +471,7 @@ bool Loop::compare(double rtol, double atol, std::span<double> b)
     size = std::max(size, std::abs(u));
   size = mesh::largest(_system->halo()->ranks(), size);
   return found.residual <= found.tolerance
-         and found.defect <= dirichlet_rel_tol * size;
+         and found.defect <= math::solved_length_tol * size;
 }
 
 double Loop::within_cells(std::span<const double> dx) const

@@ -12,9 +12,7 @@ namespace
 {
 /// Trials of a damped step; the last one is taken
 constexpr int max_trials = 6;
-/// Fraction of a step that is no progress, and successive ones that end the
-/// loop
-constexpr double negligible_step = 1e-3;
+/// Successive steps without progress that end the loop
 constexpr int max_negligible_steps = 3;
 /// Bounds of the length of a trial step over the one before
 constexpr double step_ratio_min = 0.1, step_ratio_max = 0.5;

@@ -5,6 +5,9 @@
 
 namespace contactx::solve
 {
+/// @brief Part of a step that leads nowhere.
+inline constexpr double negligible_step = 0.01;
+
 /// @brief Length of Newton steps.
 ///
 /// A step of a nonlinear bulk turns no cell inside out. Where steps are damped

@@ -244,6 +244,24 @@ TEST(CoulombLaw, MayTakeASmallerFactorAlongTheSurface)
   }
 }
 
+TEST(CoulombLaw, ReachesFartherWhereIteratesGoRound)
+{
+  FrictionState a(1);
+  // |t_hat| = 39.5 mu p
+  const auto status = [&a]
+  {
+    a.nodes.slip_reversals[0] = 0;
+    a.set(0, slip, 2, 0.5, 5);
+    a.update();
+    return a.nodes.status[0];
+  };
+  EXPECT_EQ(status(), slip);
+  a.law.allow_any_friction();
+  EXPECT_EQ(status(), stick);
+  a.law.begin_step();
+  EXPECT_EQ(status(), slip);
+}
+
 TEST(TiedLaw, TiesWhatHasAPair)
 {
   NodeState nodes(4, 2, true);

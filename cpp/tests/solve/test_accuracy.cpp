@@ -33,7 +33,7 @@ TEST(Accuracy, IsAPartOfTheChangesOfTheActiveSet)
     accuracy.begin_step();
     EXPECT_NEAR(target(accuracy, 2, changing), 6e-4, 1e-17);
   }
-  EXPECT_NEAR(target(accuracy, 2, 1e-7), 6e-6, 1e-18);
+  EXPECT_NEAR(target(accuracy, 2, 1e-7), 6e-8, 1e-20);
   EXPECT_NEAR(target(accuracy, 2, 0.05), 3e-2, 1e-15);
   EXPECT_NEAR(target(accuracy, 2, 0.9), 6e-2, 1e-15);
   EXPECT_FALSE(accuracy.is_last());

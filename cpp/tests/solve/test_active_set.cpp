@@ -323,18 +323,40 @@ TEST(ActiveSet, OpenNodesLoseTheirPressures)
     EXPECT_EQ(nodes.multiplier[i], i == 1 ? 0.1 : 0);
 }
 
-TEST(ActiveSet, IteratesThatGoRoundAreShortened)
+TEST(ActiveSet, SlipTurnsBackFartherWhereIteratesGoRound)
 {
   Springs scene(2);
-  scene.add<NodeToSurface>(scene.law(0.5));
+  const std::int32_t n = scene.scene.sheets.num_slaves;
+  const auto law = scene.law(0.5);
+  scene.add<NodeToSurface>(law);
   scene.set->begin_step();
   law::NodeState& nodes = *scene.contacts[0]->nodes();
+  std::ranges::fill(nodes.c, 1.0);
+  scene.contacts[0]->update_gap();
+  // Trial friction of 39.5 times its bound, against the traction
+  const auto status = [&]
+  {
+    std::ranges::fill(nodes.status, law::slip);
+    std::ranges::fill(nodes.slip_reversals, 0);
+    for (std::int32_t i = 0; i < n; ++i)
+    {
+      nodes.multiplier[2 * i] = 0.5;
+      nodes.multiplier[2 * i + 1] = 2;
+      nodes.gap[i] = 0;
+      nodes.slip[2 * i] = 40;
+      nodes.slip[2 * i + 1] = 0;
+    }
+    law->set_status(nodes, scene.scene.halo->ranks());
+    return nodes.status;
+  };
+  EXPECT_EQ(status(), std::vector<std::int8_t>(n, law::slip));
   for (int turn = 0; turn < 2; ++turn)
     for (const std::int8_t s : {law::open, law::slip})
     {
       std::ranges::fill(nodes.status, s);
       scene.set->note(1.0);
     }
+  EXPECT_EQ(status(), std::vector<std::int8_t>(n, law::stick));
   EXPECT_GT(scene.set->cycles(), 0);
   EXPECT_TRUE(scene.set->shortens());
   scene.set->begin_step();

@@ -138,12 +138,12 @@ TEST(StepLength, IsStuckAfterThreeInTurnThatLeadNowhere)
     length.begin(1, part);
     return length.is_stuck();
   };
-  EXPECT_FALSE(step(0.9e-3));
-  EXPECT_FALSE(step(0.9e-3));
-  EXPECT_FALSE(step(1.1e-3));
+  EXPECT_FALSE(step(0.9e-2));
+  EXPECT_FALSE(step(0.9e-2));
+  EXPECT_FALSE(step(1.1e-2));
   EXPECT_FALSE(step(0));
-  EXPECT_FALSE(step(0.9e-3));
-  EXPECT_TRUE(step(0.9e-3));
+  EXPECT_FALSE(step(0.9e-2));
+  EXPECT_TRUE(step(0.9e-2));
   EXPECT_TRUE(step(0));
   EXPECT_EQ(length.limited(), 7);
   length.begin_step(false, 1.0);
