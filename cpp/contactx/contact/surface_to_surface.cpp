@@ -559,18 +559,23 @@ std::vector<double> SurfaceToSurface::rotations(std::span<const double> from,
   return turn;
 }
 
+/// Entries of the weights that are the slave nodes' own, which come first.
+std::size_t SurfaceToSurface::num_own_parts() const
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < _sides.size(); ++i)
+    if (_paired[i])
+      _sides.for_each_part(_place[i].first, _place[i].second,
+                           [&count](std::int32_t, double) { ++count; });
+  return count;
+}
+
 std::vector<double>
 SurfaceToSurface::compliance(std::span<const double> nodal) const
 {
   const kernel::Weights w = weights();
   std::vector<double> total(_sides.size(), 0), mean(_sides.size(), 0);
-  // The slave nodes' own parts come first
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < _sides.size(); ++i)
-    if (_paired[i])
-      _sides.for_each_part(_place[i].first, _place[i].second,
-                           [&first](std::int32_t, double) { ++first; });
-  for (std::size_t e = first; e < w.values.size(); ++e)
+  for (std::size_t e = num_own_parts(); e < w.values.size(); ++e)
     if (w.values[e] <= 0)
     {
       const double size = std::abs(w.values[e]);
@@ -596,7 +601,7 @@ Mobility SurfaceToSurface::mobility(std::span<const std::int8_t> free) const
   // A plane of symmetry cuts the master, too; an edge that is pushed along
   // a master has friction
   std::vector<std::int8_t> cuts(n * g, 0);
-  for (std::size_t e = 0; e < w.values.size(); ++e)
+  for (std::size_t e = num_own_parts(); e < w.values.size(); ++e)
     if (w.values[e] < 0)
       for (int k = 0; k < g; ++k)
         if (not free[std::size_t(w.nodes[e]) * g + k])

@@ -118,6 +118,7 @@ private:
   {
     return not _edges.empty() and _edges[facet];
   }
+  std::size_t num_own_parts() const;
   Mortar slip_pairs() const;
   Mortar normalised() const;
   Mortar of_slip(std::span<const double> x, std::span<const double> u) const;

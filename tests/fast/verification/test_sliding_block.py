@@ -10,6 +10,8 @@ import ufl
 from dolfinx import fem
 from dolfinx.mesh import CellType
 
+import meshes
+from meshes import Tag
 from scenes import CELLS, dimension
 from scenes.coulomb import parts
 from scenes.covering import BOTH, METHODS, SLIDINGS, covering
@@ -263,3 +265,46 @@ def test_guided_down_a_slope_the_force_is_on_the_cone(method, cells):
     pressed = contact.force @ normal
     rubs = contact.force @ np.array([normal[1], -normal[0]])
     assert abs(rubs) == pytest.approx(friction * pressed, rel=0.01)
+
+
+@pytest.mark.parametrize("method", METHODS[1:])
+@pytest.mark.parametrize("degree", [1, 2])
+@pytest.mark.parametrize("cell", CELLS)
+def test_all_of_a_block_rubs_that_is_pushed_by_a_side(cell, degree, method):
+    """Also its nodes on the edge that is pushed, whose displacement is prescribed."""
+    gdim = dimension(cell)
+    data = meshes.blocks(
+        cell,
+        (3,) * gdim,
+        (4,) * gdim,
+        size_lower=(3.0,) * (gdim - 1) + (1.0,),
+        shift=(0.83,) * (gdim - 1),
+    )
+    domain, tags = data.mesh, data.facet_tags
+    u = displacement(domain, degree)
+    V = u.function_space
+    ds = ufl.Measure("ds", domain=domain, subdomain_data=tags)
+    F = elasticity(u, 100.0, 0.3) + ufl.TestFunction(V)[gdim - 1] * ds(Tag.UPPER_TOP)
+    facets = outside(domain)
+    at, of_cell = middles(domain, facets)
+    upper = of_cell[:, -1] > 0
+    side = facets[upper & np.isclose(at[:, 0], at[upper, 0].min())]
+    push = fem.Constant(domain, 0.0)
+    bottom = tags.find(Tag.LOWER_BOTTOM)
+    bcs = [
+        fem.dirichletbc(np.zeros(gdim), fem.locate_dofs_topological(V, gdim - 1, bottom), V),
+        fem.dirichletbc(push, fem.locate_dofs_topological(V.sub(0), gdim - 1, side), V.sub(0)),
+    ]
+    for k in range(1, gdim - 1):
+        dofs = fem.locate_dofs_topological(V.sub(k), gdim - 1, side)
+        bcs.append(fem.dirichletbc(0.0, dofs, V.sub(k)))
+    surfaces = [cx.Surface(tags, tag) for tag in (Tag.UPPER_CONTACT, Tag.LOWER_CONTACT)]
+    contact = cx.Contact(*surfaces, friction=MU, method=method)
+    problem = make_problem(F, u, [contact], bcs)
+    for push.value in (0.0, 0.05):
+        problem.solve()
+    p, t = parts(contact)
+    assert contact.area @ np.linalg.norm(t, axis=1) == pytest.approx(
+        MU * contact.area @ p, rel=1e-6
+    )
+    assert -contact.force[0] == pytest.approx(MU * contact.force[-1], rel=0.02)
