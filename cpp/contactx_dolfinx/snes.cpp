@@ -24,6 +24,15 @@ SNESLoop::SNESLoop(Assembler& assembler, ::SNES snes)
 void SNESLoop::solve()
 {
   _error = nullptr;
+  ::SNESLineSearch search = nullptr;
+  petsc::check(SNESGetLineSearch(_snes, &search), "SNESGetLineSearch");
+  PetscBool is_full = PETSC_FALSE;
+  petsc::check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(search),
+                                      SNESLINESEARCHBASIC, &is_full),
+               "PetscObjectTypeCompare");
+  // Other line searches would have nowhere to go on an interior point's path
+  if (not is_full)
+    _assembler->problem().loop().bar_path();
   petsc::check(SNESSolve(_snes, nullptr, _assembler->x()), "SNESSolve");
   if (_error)
     std::rethrow_exception(_error);

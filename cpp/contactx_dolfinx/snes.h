@@ -19,6 +19,8 @@ namespace contactx_dolfinx
 ///
 /// The SNES keeps its tolerances, line search, KSP and PC; its residual,
 /// Jacobian, convergence test and the check before its line search are set.
+/// With another line search than "basic", PETSc's default is "bt", no interior
+/// point takes over where the active set changes without end.
 /// Its rtol is relative to the forces of the problem: 1e-11 is usual. Pairs and
 /// status change in its convergence test alone.
 class SNESLoop

@@ -7,10 +7,6 @@
 #include <cmath>
 #include <vector>
 
-namespace
-{
-} // namespace
-
 double contactx::condense::residual_weight(const mesh::Bodies& bodies,
                                            std::span<const double> diagonal,
                                            std::span<const double> residual,

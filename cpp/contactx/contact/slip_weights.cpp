@@ -107,6 +107,7 @@ Mortar contactx::contact::slip_weights(Mortar now, const MortarSides& sides,
     if (gdim == 2 and aa > 0)
       slope[i] = {d[0] / aa, 0};
     const double area = aa * bb - ab * ab;
+    // Masters of a node that are on a line tell no slope in both directions
     if (gdim == 3 and area > math::negligible_part * (aa + bb) * (aa + bb))
       slope[i]
           = {(bb * d[0] - ab * d[1]) / area, (aa * d[1] - ab * d[0]) / area};

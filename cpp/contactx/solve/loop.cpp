@@ -326,7 +326,7 @@ Verdict Loop::judge_path(double rtol, double atol, std::span<double> b)
       // thrown it off
       const bool is_held = _bodies->may_balance(_forces, _path.reach());
       if (not _path.begins_again())
-        return is_held ? Verdict::goes_on : Verdict::unbalanced;
+        return Verdict::goes_on;
       if (not is_held)
       {
         _active_set.pair();
