@@ -250,25 +250,29 @@ bool InteriorPoint::begins(const Changes& changes, std::int64_t closed,
   ++_count;
   _most_closed = std::max(_most_closed, closed);
   const auto now = static_cast<double>(changes.contact);
-  // Nodes of the first iterate, but of three before at most
-  const int apart = std::min(_count - 1, static_cast<int>(_passed.size()));
-  const double ago = apart > 0 ? static_cast<double>(_passed[apart - 1]) : 0;
+  // The most nodes of three iterates before
+  const auto most = std::ranges::max_element(_passed);
+  const auto ago = static_cast<double>(*most),
+             last = static_cast<double>(_passed[0]);
+  const auto apart = 1 + std::distance(_passed.begin(), most);
   _passed = {changes.contact, _passed[0], _passed[1]};
   if (_is_barred)
     return false;
   _last_way = way;
   _shortest_way = std::min(_shortest_way, way);
-  if (apart == 0)
+  if (_count == 1)
     return false;
   if (_count > path_cost or has_run_away())
     return changes.status > 0;
   if (_most_closed <= nodes_per_iterate * path_cost)
     return false;
-  if (now <= std::max(few_nodes, few_fraction * static_cast<double>(closed)))
+  // Where one iterate alone changes many, a few follow
+  if (std::min(now, last)
+      <= std::max(few_nodes, few_fraction * static_cast<double>(closed)))
     return false;
   // Iterates that are still to go, if fewer and fewer nodes pass as they do now
-  const double rate = ago > 0 ? std::log(now / ago) / apart : 0;
-  return rate >= 0 ? ago > 0 : std::log(now) > -path_cost * rate;
+  const double rate = std::log(now / ago) / static_cast<double>(apart);
+  return rate >= 0 or std::log(now) > -path_cost * rate;
 }
 
 void InteriorPoint::start()

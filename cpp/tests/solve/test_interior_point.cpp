@@ -245,6 +245,9 @@ TEST(InteriorPoint, BeginsWhereTheActiveSetHasMoreToGoThanAPathTakes)
   // Over three iterates
   EXPECT_FALSE(begins({100, 60, 40, 20}));
   EXPECT_TRUE(begins({100, 60, 30, 12, 30}));
+  // One iterate that changes many, and those that follow it
+  EXPECT_FALSE(begins({18, 2, 0, 2, 14}, 62));
+  EXPECT_FALSE(begins({18, 2, 0, 2, 14, 9, 5}, 62));
   // Few nodes that change, or that are closed
   EXPECT_FALSE(begins({2, 2}));
   EXPECT_FALSE(begins({30, 30}, 36));

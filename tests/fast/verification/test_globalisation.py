@@ -134,7 +134,7 @@ def test_nodes_on_the_path_are_condensed(friction, method):
     answers = []
     for pc in ("lu", "condensed"):
         strip = slender.beam(
-            120, "deep", method=method, friction=friction, petsc_options={"pc_type": pc}
+            200, "deep", method=method, friction=friction, petsc_options={"pc_type": pc}
         )
         report = slender.press(strip, "deep")
         assert report.interior > 0
