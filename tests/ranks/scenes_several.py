@@ -48,7 +48,7 @@ def beam_condensed() -> Iterator[cx.ContactProblem]:
 
 
 def _beam(solver: str) -> Iterator[cx.ContactProblem]:
-    strip = slender.beam(120, "deep", petsc_options={"pc_type": solver})
+    strip = slender.beam(200, "deep", petsc_options={"pc_type": solver})
     assert slender.press(strip, "deep").interior > 0
     yield strip.problem
 
