@@ -319,7 +319,7 @@ void Contact::leave_out_empty()
     if (area[i] == 0)
     {
       _is_left_out[i] = 1;
-      _filler[i] = math::negligible_part * most;
+      _filler[i] = math::equal_rel_tol * most;
     }
 }
 
