@@ -3,6 +3,8 @@
 
 #include "master.h"
 #include <contactx/condense/contact_block.h>
+#include <contactx/condense/solver/algebra.h>
+#include <contactx/math/scales.h>
 #include <optional>
 #include <pybind11/stl.h>
 
@@ -67,4 +69,7 @@ void contactx_bindings::condense(py::module_& m)
                                   array(found.values));
           },
           py::arg("places"));
+
+  m.attr("gmres_restart") = gmres_restart;
+  m.attr("round_off") = contactx::math::round_off;
 }

@@ -370,6 +370,7 @@ Iterations Hierarchy::solve(std::span<const double> b, std::span<double> x,
   // Preconditioned from where the norm of the residual itself is at hand
   const ::KSP ksp = _krylov.ksp();
   check(KSPSetType(ksp, is_symmetric ? KSPCG : KSPGMRES), "KSPSetType");
+  check(KSPGMRESSetRestart(ksp, condense::gmres_restart), "KSPGMRESSetRestart");
   check(KSPSetPCSide(ksp, is_symmetric ? PC_LEFT : PC_RIGHT), "KSPSetPCSide");
   check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
   set_tolerances(ksp, target, most);

@@ -953,4 +953,6 @@ OPEN: int = 0
 SLIP: int = 2
 STICK: int = 1
 area_elsewhere: float = -1.0
+gmres_restart: int = 100
 pair_layout: dict = {"feature": 0, "xi": 1, "cone": 3, "normal": 6, "size": 9}
+round_off: float = 1e-12

@@ -47,7 +47,7 @@ Condensation::Condensation(const CompressedRows& contact,
     : _num_local(free.size()),
       _num_multipliers(condense::num_multipliers(contacts)),
       _prescribed(contacts, checked(contact, contacts, free, gdim, diagonal),
-                  free, gdim, holds),
+                  free, gdim, diagonal, holds),
       _elimination(contacts, _prescribed, free, gdim, diagonal)
 {
 }

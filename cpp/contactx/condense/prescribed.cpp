@@ -62,10 +62,26 @@ bool choose(Matrix3d D, std::array<bool, 3>& gives, std::array<bool, 3>& stays)
         return false;
   return true;
 }
+
+/// Mean size of the diagonal where displacements are free.
+double mean_size(std::span<const double> diagonal,
+                 std::span<const std::int8_t> free)
+{
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    if (free[i])
+    {
+      sum += std::abs(diagonal[i]);
+      ++count;
+    }
+  return sum > 0 ? sum / count : 1;
+}
 } // namespace
 
 Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
-                       std::span<const std::int8_t> free, int gdim, bool holds)
+                       std::span<const std::int8_t> free, int gdim,
+                       std::span<const double> diagonal, bool holds)
     : _blocks(std::move(blocks))
 {
   const std::size_t count = num_multipliers(contacts);
@@ -142,7 +158,7 @@ Prescribed::Prescribed(std::span<const Nodes> contacts, Blocks blocks,
   if (not _multipliers.empty())
     take_out(count, free.size());
   if (not _retained.dofs.empty())
-    hold(held_law);
+    hold(held_law, free, diagonal);
 }
 
 /// Pressures of soft nodes that have no displacement of their slave node for
@@ -179,47 +195,62 @@ void Prescribed::mark_springs(std::span<const Nodes> contacts,
   }
 }
 
-void Prescribed::hold(const Triplets& law)
+void Prescribed::hold(const Triplets& law, std::span<const std::int8_t> free,
+                      std::span<const double> diagonal)
 {
   const std::size_t n = _retained.dofs.size();
   std::vector<std::int32_t> place(_own.size(), -1);
   for (std::size_t i = 0; i < n; ++i)
     place[_retained.multipliers[i]] = static_cast<std::int32_t>(i);
-  Blocks left;
-  left.stiffness = std::move(_blocks.stiffness);
   const Triplets &T = _blocks.traction, &C = _blocks.constraint;
   std::vector<double> of_traction(n, 0), of_constraint(n, 0);
+  // Of C_h^2 and of C_h^2 / diag(K), where masters are this rank's, too
+  std::vector<double> squares(n, 0), compliance(n, 0);
   for (std::size_t e = 0; e < C.size(); ++e)
     if (const std::int32_t at = place[C.rows[e]]; at >= 0)
     {
+      const std::size_t dof = C.columns[e];
       of_constraint[at] = std::max(of_constraint[at], std::abs(C.values[e]));
-      left.stiffness.add(_retained.dofs[at], C.columns[e], C.values[e]);
+      if (dof >= diagonal.size() or not free[dof] or diagonal[dof] == 0)
+        continue;
+      squares[at] += C.values[e] * C.values[e];
+      compliance[at] += C.values[e] * C.values[e] / std::abs(diagonal[dof]);
     }
-    else
-      left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
   for (std::size_t e = 0; e < T.size(); ++e)
     if (const std::int32_t at = place[T.columns[e]]; at >= 0)
       of_traction[at] = std::max(of_traction[at], std::abs(T.values[e]));
-  double sum = 0;
+  const double mean_stiffness = mean_size(diagonal, free);
+  double rows = 0, columns = 0;
   int count = 0;
   for (std::size_t i = 0; i < n; ++i)
-    if (of_traction[i] > 0 and of_constraint[i] > 0)
-    {
-      sum += of_constraint[i] / of_traction[i];
-      ++count;
-    }
+  {
+    _retained.row_scale.push_back(0);
+    _retained.scale.push_back(0);
+    // One whose master is prescribed, too, is in the law of another one alone
+    if (of_traction[i] == 0 or of_constraint[i] == 0)
+      continue;
+    const double stiffness
+        = compliance[i] > 0 ? squares[i] / compliance[i] : mean_stiffness;
+    rows += _retained.row_scale[i] = stiffness / of_constraint[i];
+    columns += _retained.scale[i] = stiffness / of_traction[i];
+    ++count;
+  }
   if (count == 0)
     throw NotCondensable("no displacement of a master that a prescribed one of "
                          "its slave node holds is free");
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    // One whose master is prescribed, too, is in the law of another one alone
-    const bool is_free = of_traction[i] > 0 and of_constraint[i] > 0;
-    _retained.scale.push_back(is_free ? of_constraint[i] / of_traction[i]
-                                      : sum / count);
-    // The bulk's row of a prescribed displacement has a one
-    left.stiffness.add(_retained.dofs[i], _retained.dofs[i], -1);
-  }
+  std::ranges::replace(_retained.row_scale, 0.0, rows / count);
+  std::ranges::replace(_retained.scale, 0.0, columns / count);
+  Blocks left;
+  left.stiffness = std::move(_blocks.stiffness);
+  // The bulk's row of a prescribed displacement has a one
+  for (const std::int32_t dof : _retained.dofs)
+    left.stiffness.add(dof, dof, -1);
+  for (std::size_t e = 0; e < C.size(); ++e)
+    if (const std::int32_t at = place[C.rows[e]]; at >= 0)
+      left.stiffness.add(_retained.dofs[at], C.columns[e],
+                         _retained.row_scale[at] * C.values[e]);
+    else
+      left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
   for (std::size_t e = 0; e < T.size(); ++e)
     if (const std::int32_t at = place[T.columns[e]]; at >= 0)
       left.stiffness.add(T.rows[e], _retained.dofs[at],
@@ -229,7 +260,8 @@ void Prescribed::hold(const Triplets& law)
   for (std::size_t e = 0; e < law.size(); ++e)
     left.stiffness.add(_retained.dofs[law.rows[e]],
                        _retained.dofs[law.columns[e]],
-                       law.values[e] * _retained.scale[law.columns[e]]);
+                       _retained.row_scale[law.rows[e]] * law.values[e]
+                           * _retained.scale[law.columns[e]]);
   _blocks = std::move(left);
 }
 
@@ -301,8 +333,9 @@ void Prescribed::right_hand_side(std::span<double> d, std::span<double> forces,
   // Nothing is left in the rows of what the law gives
   for (std::size_t i = 0; i < m; ++i)
     d[_multipliers[i]] = _is_given[i] == 0 ? given[i] + change[i] : 0;
-  for (const std::int32_t i : _retained.multipliers)
-    retained.push_back(std::exchange(d[i], 0));
+  for (std::size_t i = 0; i < _retained.dofs.size(); ++i)
+    retained.push_back(_retained.row_scale[i]
+                       * std::exchange(d[_retained.multipliers[i]], 0));
 }
 
 void Prescribed::recover(std::span<const double> d, std::span<const double> u,

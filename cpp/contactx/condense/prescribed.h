@@ -14,6 +14,7 @@ struct RetainedMultipliers
   std::vector<std::int32_t> multipliers; ///< numbers (shape=(n))
   std::vector<std::int32_t> dofs;        ///< their places (shape=(n))
   std::vector<double> scale;             ///< multiplier a unit (shape=(n))
+  std::vector<double> row_scale;         ///< factors of rows (shape=(n))
 };
 
 /// @brief Takes multipliers p that follow from their own rows of the law out of
@@ -34,8 +35,10 @@ struct RetainedMultipliers
 /// Where D_pp is singular, as where such a node sticks to a master that is free
 /// to move, a part h of p may be retained: l_h stays an unknown, in the place
 /// of the prescribed displacement, whose row the bulk has no use for. What is
-/// left of C_h is added to that row of the stiffness, T_h, scaled to the size
-/// of C_h, to its column, and D between them. The matrix that is left is
+/// left of C_h is added to that row of the stiffness, T_h to its column, and D
+/// between them, both scaled to the stiffness C_h^2 / (C_h^2 diag(K)^-1) of
+/// what they hold: as everywhere a residual is a force, and an unknown a
+/// length. The matrix that is left is
 /// indefinite.
 ///
 /// All of it is of one rank alone: its slave nodes' constraints, in all nodes'
@@ -49,11 +52,14 @@ public:
   /// @param[in] free 1 at displacements that are not prescribed, else 0
   /// (shape=(num_local)).
   /// @param[in] gdim Geometric dimension.
+  /// @param[in] diagonal Diagonal of the bulk's matrix at this rank's own
+  /// displacements, the first ones of all.
   /// @param[in] holds Whether multipliers may be retained.
   /// @throws NotCondensable where the law does not give such a multiplier, and
   /// it is not retained.
   Prescribed(std::span<const Nodes> contacts, Blocks blocks,
-             std::span<const std::int8_t> free, int gdim, bool holds);
+             std::span<const std::int8_t> free, int gdim,
+             std::span<const double> diagonal, bool holds);
 
   /// @brief Contact blocks without these multipliers.
   const Blocks& blocks() const { return _blocks; }
@@ -100,7 +106,8 @@ public:
 private:
   void mark_springs(std::span<const Nodes> contacts,
                     std::span<const std::int8_t> free, int gdim);
-  void hold(const Triplets& law);
+  void hold(const Triplets& law, std::span<const std::int8_t> free,
+            std::span<const double> diagonal);
   void take_out(std::size_t num_multipliers, std::size_t num_local);
 
   Blocks _blocks;

@@ -241,6 +241,9 @@ bool CondensedSolver::solve_condensed(Spans b, std::span<double> x)
     const double weight = K_c->residual_weight(*_problem.bodies(), given);
     target *= std::min(1., weight);
   }
+  // Newton's residual may be far larger than what is left of it here
+  target = std::min(target, condense::one_digit
+                                * condense::norm(_numbering->ranks(), rhs));
   if (not(fields ? iterate_with_fields(rhs, v, target)
                  : iterate(K_c, is_retained, rhs, v, target)))
     return false;
@@ -281,28 +284,36 @@ bool CondensedSolver::iterate_with_fields(Spans rhs, std::span<double> x,
 /// Solves the condensed system, by multigrid where it is fast; whether
 /// iterations converged.
 bool CondensedSolver::iterate(std::shared_ptr<CondensedOperator> K_c,
-                              bool is_needed, Spans rhs, std::span<double> v,
+                              bool is_retained, Spans rhs, std::span<double> v,
                               double target)
 {
   const bool is_asked = _algebra->preconditioner() == "bodies";
-  if (not is_needed and not is_asked and _failures.multigrid < max_failures)
+  const auto is_mixed = [&] { return _soft_stiff.tells_apart(*K_c); };
+  const auto is_proven = [&] { return _multigrid_serves or not is_mixed(); };
+  if (not is_asked and _failures.multigrid < max_failures
+      and (not is_retained
+           or (_failures.retained < max_failures and is_proven())))
   {
-    // Where bodies can be told apart the other solver is fast: one slow solve
-    // tells enough, and in its first digit
-    const auto is_mixed = [&] { return _soft_stiff.tells_apart(*K_c); };
-    if ((_multigrid_serves or not is_mixed() or not is_slow(K_c, rhs, v))
+    // Where bodies can be told apart the other solver is fast, and where
+    // multipliers are left multigrid may be slow: one slow solve tells enough,
+    // and in its first digit
+    const bool is_sure = not is_retained and is_proven();
+    if ((is_sure or not is_slow(K_c, rhs, v))
         and _multigrid.solve(K_c, rhs, v, target))
     {
-      _multigrid_serves = true;
+      _multigrid_serves = _multigrid_serves or not is_retained;
       return true;
     }
-    _failures.multigrid += is_mixed() ? max_failures : 1;
+    if (is_retained)
+      ++_failures.retained;
+    else
+      _failures.multigrid += is_mixed() ? max_failures : 1;
   }
   const bool is_solved = _soft_stiff.solve(K_c, rhs, v, target);
   if (is_solved)
-    _statistics.by_bodies.push_back(is_needed  ? retained_multipliers
-                                    : is_asked ? by_option
-                                               : slow_multigrid);
+    _statistics.by_bodies.push_back(is_retained ? retained_multipliers
+                                    : is_asked  ? by_option
+                                                : slow_multigrid);
   else
     ++_failures.bodies;
   return is_solved;

@@ -78,8 +78,8 @@ private:
   const condense::Springs& springs() const;
   std::shared_ptr<condense::CondensedOperator> condensed(Spans b);
   bool solve_condensed(Spans b, std::span<double> x);
-  bool iterate(std::shared_ptr<condense::CondensedOperator> K_c, bool is_needed,
-               Spans rhs, std::span<double> v, double target);
+  bool iterate(std::shared_ptr<condense::CondensedOperator> K_c,
+               bool is_retained, Spans rhs, std::span<double> v, double target);
   bool is_slow(std::shared_ptr<condense::CondensedOperator> K_c, Spans rhs,
                std::span<double> v);
   bool iterate_with_fields(Spans rhs, std::span<double> x, double target);
@@ -102,11 +102,11 @@ private:
   // Whether multigrid has solved a system, so that its first digit is not asked
   // for apart
   bool _multigrid_serves = false;
-  // Failures of multigrid, and of the block preconditioner: those of now, and
-  // at the start of the step
+  // Failures of multigrid, of multigrid where multipliers are left, and of the
+  // block preconditioner: those of now, and at the start of the step
   struct Failures
   {
-    int multigrid = 0, bodies = 0;
+    int multigrid = 0, retained = 0, bodies = 0;
   } _failures, _failures_before;
   Statistics _statistics;
 };

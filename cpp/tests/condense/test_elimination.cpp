@@ -286,6 +286,26 @@ TEST_P(Eliminated, MultipliersOfPrescribedDisplacementsMayStayUnknowns)
   }
 }
 
+TEST_P(Eliminated, RetainedMultipliersDoNotDependOnUnits)
+{
+  // A body a million times as stiff scales their rows and columns as its own
+  Saddle saddle(gdim, 9, {{{0, 3}, {1, 5, 6}, gdim, {stick, stick}}},
+                along(gdim, {0, 3}, {1}), 4);
+  std::ranges::fill(saddle.contacts[0].by_multiplier, 0);
+  saddle.contact.bottomRightCorner(2 * gdim, 2 * gdim).setZero();
+  const Condensation soft = saddle.condensed(true);
+  saddle.bulk *= 1e6;
+  const Condensation stiff = saddle.condensed(true);
+  ASSERT_EQ(soft.retained().dofs.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_NEAR(stiff.retained().scale[i] / soft.retained().scale[i], 1e6,
+                1e-3);
+    EXPECT_NEAR(stiff.retained().row_scale[i] / soft.retained().row_scale[i],
+                1e6, 1e-3);
+  }
+}
+
 TEST_P(Eliminated, WhatASingularLawDoesNotGiveMayStayUnknown)
 {
   for (unsigned seed = 0; seed < 10; ++seed)

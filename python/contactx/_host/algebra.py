@@ -21,7 +21,6 @@ from contactx import cpp as core
 from contactx._host.bulk import Bulk
 from contactx._host.callbacks import Quiet, weakly
 from contactx._host.options import (
-    ROUNDING,
     aggregation_options,
     block_options,
     direct_options,
@@ -442,12 +441,13 @@ class Hierarchy:
         """Solve with the matrix."""
         ksp, method = self._ksp, "cg" if is_symmetric else "gmres"
         ksp.setType(method)
+        ksp.setGMRESRestart(core.gmres_restart)
         ksp.setPCSide(_SIDES[method])
         ksp.setNormType(PETSc.KSP.NormType.UNPRECONDITIONED)
         self._b.array[:], self._x.array[:] = b, x
         # A start of zero costs no product
         ksp.setInitialGuessNonzero(self._x.norm() > 0)
-        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=most)
+        ksp.setTolerances(rtol=core.round_off, atol=target, max_it=most)
         with self._callbacks.solving():
             ksp.solve(self._b, self._x)
         x[:] = self._x.array_r
@@ -555,7 +555,7 @@ class _DirectSolver:
         assert ksp is not None and A is not None
         u, f = A.createVecs()
         f.array[:] = b
-        ksp.setTolerances(rtol=ROUNDING, atol=target, max_it=most)
+        ksp.setTolerances(rtol=core.round_off, atol=target, max_it=most)
         ksp.solve(f, u)
         x[:] = u.array_r
         return ksp.getIterationNumber(), _end(ksp)

@@ -252,15 +252,9 @@ def _with_degrees(form: ufl.Form) -> list[ufl.Integral]:
     """
     # UFL keeps what it has seen, and would keep meshes and functions
     bare, _ = strip_terminal_data(form)
-    # As FFCx asks for it: pull-backs and scaling raise the degree
+    # Of what FFCx asks for only this one raises the degree, that of an integral's scaling
     data: Any = ufl.algorithms.compute_form_data(
-        bare,
-        do_apply_function_pullbacks=True,
-        do_apply_integral_scaling=True,
-        do_apply_geometry_lowering=True,
-        preserve_geometry_types=(ufl.classes.Jacobian,),
-        do_apply_restrictions=True,
-        do_append_everywhere_integrals=False,
+        bare, do_apply_integral_scaling=True, do_append_everywhere_integrals=False
     )
     degrees: dict[tuple[Any, ...], int] = {}
     for group in data.integral_data:

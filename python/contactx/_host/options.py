@@ -14,9 +14,6 @@ import numpy as np
 
 from contactx._host import compat
 
-# Relative residual below which a linear solve cannot get, for round-off
-ROUNDING = 1e-12
-
 # Dofs of the displacement from which on multigrid is faster than a direct solver, by the
 # dimension: without friction, and with it, where systems are not symmetric (bench_solvers)
 _MIN_CONDENSED_DOFS = {2: (4_000, 300_000), 3: (2_500, 2_500)}

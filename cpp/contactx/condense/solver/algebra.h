@@ -81,6 +81,10 @@ public:
                      bool transposed = false) = 0;
 };
 
+/// Krylov vectors of GMRES with multigrid before a restart, made as they are
+/// needed: each multiplier that stays an unknown is an eigenvalue of its own
+inline constexpr int gmres_restart = 100;
+
 /// @brief A multigrid hierarchy of a matrix, and Krylov methods that it
 /// preconditions, of a matrix that is given as a product.
 class Hierarchy

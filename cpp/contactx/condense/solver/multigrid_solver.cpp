@@ -96,10 +96,10 @@ bool MultigridSolver::solve_with(std::shared_ptr<CondensedOperator> K_c,
 bool MultigridSolver::solve_roughly(std::span<const double> rhs,
                                     std::span<double> v)
 {
-  constexpr double rtol = 0.1;
   const double size = norm(_K_c->numbering().ranks(), rhs);
-  const int most = static_cast<int>(_tuning.slow_rate * -std::log(rtol));
-  const Iterations done = run(rhs, v, _K_c->is_symmetric(), rtol * size, most);
+  const int most = static_cast<int>(_tuning.slow_rate * -std::log(one_digit));
+  const Iterations done
+      = run(rhs, v, _K_c->is_symmetric(), one_digit * size, most);
   if (done.end == Iterations::End::indefinite)
     std::ranges::fill(v, 0);
   return done.end != Iterations::End::failed;

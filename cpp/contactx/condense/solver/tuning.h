@@ -5,6 +5,10 @@
 
 namespace contactx::condense
 {
+/// Part of its right-hand side that each solve leaves at most, and that tells
+/// whether iterations are slow
+inline constexpr double one_digit = 0.1;
+
 /// @brief Numbers of the condensed solver that cost or save time, and change no
 /// answer. `bench_tuning.py` measures what others cost.
 struct Tuning
