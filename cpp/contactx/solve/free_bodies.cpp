@@ -32,8 +32,8 @@ constexpr double balanced_force_max = 1e-3;
 // Resistance of closed nodes to a motion, over the largest, below which it is
 // that of the corners between facets: squares of the sines of their angles
 constexpr double corner_resistance = 1e-3;
-// Way of a node in contact along its facets, over their size, from which on
-// others of its body pass corners
+// Way of a node of a body by such motions, over the size of the facets in
+// contact, from which on others pass corners
 constexpr double run_fraction = 0.1;
 // Force along motions that little resists, over the contact forces, that
 // supports may take
@@ -170,8 +170,9 @@ struct FreeBodies::Motions
 struct FreeBodies::Neutral
 {
   MotionFields fields;
-  MatrixXd slips;           ///< of closed nodes, by each motion
-  std::vector<double> size; ///< of the facets around each closed node
+  MatrixXd N; ///< the same by the bodies' modes, a column each
+  std::vector<Rows> rows;
+  double size; ///< of the smallest facet in contact
 };
 
 struct FreeBodies::Room
@@ -373,7 +374,7 @@ bool FreeBodies::stabilise(const Forces& forces)
   const std::vector<double> force = checked(forces.residual());
   const std::vector<double> pull = along(x, force, -1);
   _balanced = math::negligible_part * forces.scale();
-  const std::vector<Rows> rows = this->rows(x);
+  std::vector<Rows> rows = this->rows(x);
   bool closed_any = _begins and close_before_springs(rows, pull);
   if (_begins)
     _has_given_way = false;
@@ -382,6 +383,7 @@ bool FreeBodies::stabilise(const Forces& forces)
   _begins = false;
   Motions motions;
   MatrixXd N;
+  std::vector<double> way(pull.size(), 0);
   while (true)
   {
     motions = free_basis(rows, false);
@@ -405,7 +407,7 @@ bool FreeBodies::stabilise(const Forces& forces)
     }
     const VectorXd motion = N * f;
     const std::span increment(motion.data(), motion.size());
-    const std::int64_t closed = close_first(rows, increment);
+    const std::int64_t closed = close_first(rows, increment, way);
     _closed_for_balance += closed;
     if (closed == 0 and not stick_first(rows, increment))
     {
@@ -420,7 +422,8 @@ bool FreeBodies::stabilise(const Forces& forces)
   for (std::size_t b = 0; N.cols() > 0 and b < _is_loose.size(); ++b)
     _is_loose[b] = N.middleRows(b * m, m).norm() > math::equal_rel_tol;
   if (not has_friction() and motions.N.cols() > motions.num_free)
-    note_neutral(motions, rows, x, pull, force, checked(forces.of_bulk()));
+    note_neutral(motions, std::move(rows), x, pull, force,
+                 checked(forces.of_bulk()));
   if (_neutral and _is_holding)
     hold();
   else if (_free_modes > 0)
@@ -554,8 +557,7 @@ void FreeBodies::keep_in_place(MotionFields fields)
 
 /// Finds the motions that nothing but corners between facets resists, if the
 /// forces along them are small.
-void FreeBodies::note_neutral(const Motions& motions,
-                              const std::vector<Rows>& rows,
+void FreeBodies::note_neutral(const Motions& motions, std::vector<Rows> rows,
                               std::span<const double> x,
                               std::span<const double> pull,
                               std::span<const double> forces,
@@ -564,49 +566,37 @@ void FreeBodies::note_neutral(const Motions& motions,
   const Eigen::Index k = motions.N.cols();
   _pressed = std::sqrt(mesh::total(
       ranks(), (math::column(forces) - math::column(of_bulk)).squaredNorm()));
-  // Where bodies are held the end of the step decides
+  // Where bodies are held the end of the step decides. At its begin contact may
+  // have no forces yet
+  const double least = std::max(_pressed, math::column(pull).norm());
   if (not _is_holding
       and (motions.N.transpose() * math::column(pull)).norm()
-              > std::max(_balanced, held_force_max * _pressed))
+              > std::max(_balanced, held_force_max * least))
     return;
-  _neutral = std::make_unique<Neutral>(
-      Neutral{displacements(motions, x), MatrixXd(0, k), {}});
-  std::vector<double> slips;
+  double size = std::numeric_limits<double>::infinity();
   for (const Rows& some : rows)
   {
     const std::vector<std::int8_t> status = some.contact->status();
-    const std::vector<double> size = some.contact->facet_size();
-    for (std::size_t i = 0; i < some.size(); ++i)
-    {
-      if (status[some.slaves[i]] == law::open)
-        continue;
-      _neutral->size.push_back(size[some.slaves[i]]);
-      for (Eigen::Index mode = 0; mode < k; ++mode)
-      {
-        const VectorXd motion = motions.N.col(mode);
-        const Vector<3> slip = along_surface(
-            some.normal[i],
-            some.by({motion.data(), std::size_t(motion.size())}, i));
-        slips.insert(slips.end(), slip.begin(), slip.end());
-      }
-    }
+    const std::vector<double> sizes = some.contact->facet_size();
+    for (const std::int32_t slave : some.slaves)
+      if (status[slave] != law::open)
+        size = std::min(size, sizes[slave]);
   }
-  // Of each node its movement by each motion, three components
-  _neutral->slips
-      = Eigen::Map<const MatrixXd>(slips.data(), 3, slips.size() / 3);
+  _neutral = std::make_unique<Neutral>(Neutral{displacements(motions, x),
+                                               motions.N, std::move(rows),
+                                               mesh::least(ranks(), size)});
 }
 
 bool FreeBodies::runs_along(std::span<const double> dx) const
 {
   if (not _neutral or _is_holding)
     return false;
-  const Eigen::Index k = _neutral->fields.size();
-  const VectorXd motion = _neutral->fields.part_of(dx);
+  const VectorXd motion = _neutral->N * _neutral->fields.part_of(dx);
+  const std::span by(motion.data(), motion.size());
   bool is_far = false;
-  for (std::size_t i = 0; i < _neutral->size.size(); ++i)
-    is_far = is_far
-             or (_neutral->slips.middleCols(k * i, k) * motion).norm()
-                    > run_fraction * _neutral->size[i];
+  for (const Rows& some : _neutral->rows)
+    for (std::size_t i = 0; i < some.size() and not is_far; ++i)
+      is_far = norm(some.by(by, i)) > run_fraction * _neutral->size;
   return mesh::anywhere(ranks(), is_far);
 }
 
@@ -808,7 +798,8 @@ bool FreeBodies::close_before_springs(const std::vector<Rows>& rows,
     const std::span increment(motion.data(), motion.size());
     if (largest_size(increment) == 0)
       break;
-    const std::int64_t closed = close_first(rows, increment, 1.0);
+    std::vector<double> way(pull.size(), 0);
+    const std::int64_t closed = close_first(rows, increment, way, 1.0);
     _closed_for_balance += closed;
     if (closed == 0)
       break;
@@ -1073,11 +1064,13 @@ double FreeBodies::lowest(std::span<const Found> found) const
 
 /// Close the open nodes that touch first in a rigid motion of the bodies.
 /// @param[in] increment The motion: coefficients of each body's modes.
+/// @param[in,out] way How far bodies have gone before, by the same
+/// coefficients, then with what they go now.
 /// @param[in] within Part of the motion that they go.
 /// @return Number of nodes closed on all ranks.
 std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
                                      std::span<const double> increment,
-                                     double within)
+                                     std::vector<double>& way, double within)
 {
   const double most = largest_size(increment);
   std::vector<Found> found;
@@ -1095,7 +1088,8 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
       if (not(speed > math::negligible_part * most))
         continue;
       able.slaves.push_back(slave);
-      able.times.push_back(std::max(gap[slave], 0.0) / speed);
+      const double left = gap[slave] + dot(some.normal[i], some.by(way, i));
+      able.times.push_back(std::max(left, 0.0) / speed);
     }
   }
   const double first = lowest(found);
@@ -1113,6 +1107,8 @@ std::int64_t FreeBodies::close_first(const std::vector<Rows>& rows,
     some.contact->close(which);
     count += std::ssize(which);
   }
+  for (std::size_t k = 0; k < way.size(); ++k)
+    way[k] += first * increment[k];
   return mesh::total(ranks(), count);
 }
 

@@ -281,6 +281,7 @@ private:
                             std::span<const double> pull);
   std::int64_t
   close_first(const std::vector<Rows>& rows, std::span<const double> increment,
+              std::vector<double>& way,
               double within = std::numeric_limits<double>::infinity());
   bool stick_first(const std::vector<Rows>& rows,
                    std::span<const double> increment);
@@ -297,7 +298,7 @@ private:
                    std::span<const double> pull,
                    std::span<const double> forces);
   void keep_in_place(MotionFields fields);
-  void note_neutral(const Motions& motions, const std::vector<Rows>& rows,
+  void note_neutral(const Motions& motions, std::vector<Rows> rows,
                     std::span<const double> x, std::span<const double> pull,
                     std::span<const double> forces,
                     std::span<const double> of_bulk);

@@ -116,20 +116,30 @@ TEST_2D_3D(FreeBodies, WithoutALoadSpringsAloneHoldABlock, g)
 TEST(FreeBodies, ABlockClosesTheNodesThatItMeetsFirst)
 {
   // In 2D the nearest node, then the one that turning about it takes down first
+  // from where it has come by then
+  const auto round = [](Block& block)
+  {
+    for (std::size_t i = 0; i < block.slaves.size(); ++i)
+    {
+      const double x
+          = block.scene.truss.x[block.slaves[i] * block.scene.truss.gdim];
+      block.floor->gap[i] = 0.05 + 0.01 * x * x;
+    }
+  };
   Block block(2);
+  round(block);
   FreeBodies free = block.scene.begun();
   EXPECT_TRUE(free.stabilise(block.loads(down(2))));
-  EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 3}));
+  EXPECT_EQ(block.nodes(law::slip), (std::set<std::int32_t>{0, 1}));
   EXPECT_EQ(free.closed_for_balance(), 2);
   EXPECT_EQ(free.free_modes(), 1);
   EXPECT_FALSE(free.is_unbalanced());
   EXPECT_EQ(num_springs(free), 1);
-  // In 3D the edge that is nearest, then the one across
+  // In 3D an edge, then all nodes at once, as they are in a plane
   Block solid(3);
   FreeBodies held = solid.scene.begun();
   EXPECT_TRUE(held.stabilise(solid.loads(down(3))));
-  EXPECT_EQ(solid.nodes(law::slip),
-            (std::set<std::int32_t>{0, 4, 8, 12, 3, 7, 11, 15}));
+  EXPECT_EQ(solid.nodes(law::slip).size(), 16u);
   EXPECT_EQ(held.free_modes(), 3);
 }
 

@@ -18,6 +18,7 @@ import meshes
 from meshes import Tag
 from scenes import CELLS, Blocks
 from scenes.covering import BOTH, METHODS, SLIDINGS, covering
+from scenes.disc import WEIGHT, FreeDisc
 from scenes.problems import make_problem
 from story import displacement, elasticity
 
@@ -226,3 +227,18 @@ def test_a_support_that_comes_later(cell):
     rises = np.zeros(gdim)
     rises[-1] = 0.1
     assert np.abs(u.x.array.reshape(-1, gdim) - rises).max() <= 1e-9
+
+
+@pytest.mark.filterwarnings("ignore:nothing but the corners")
+@pytest.mark.parametrize(
+    ("cup", "gap", "linear"),
+    [(1.3, 0.0, False), (2.0, 0.0, False), (2.0, 0.1, True), (None, 0.5, True), (None, 0.5, False)],
+)
+def test_a_disc_neither_turns_nor_drifts_where_nothing_makes_it(cup, gap, linear):
+    """Its first nodes in contact are close to each other, and hardly resist a rotation."""
+    disc = FreeDisc(cup, gap, linear=linear)
+    disc.problem.solve()
+    turned, aside = disc.moved
+    assert abs(turned) <= 0.025 and abs(aside) <= 0.012
+    assert np.abs(disc.contact.force - [0, WEIGHT]).max() <= 0.01 * WEIGHT
+    assert disc.problem.report.iterations <= 18
