@@ -14,7 +14,7 @@ struct RetainedMultipliers
   std::vector<std::int32_t> multipliers; ///< numbers (shape=(n))
   std::vector<std::int32_t> dofs;        ///< their places (shape=(n))
   std::vector<double> scale;             ///< multiplier a unit (shape=(n))
-  std::vector<double> row_scale;         ///< factors of rows (shape=(n))
+  std::vector<double> row_scale;         ///< factor of its row (shape=(n))
 };
 
 /// @brief Takes multipliers p that follow from their own rows of the law out of
@@ -38,8 +38,7 @@ struct RetainedMultipliers
 /// left of C_h is added to that row of the stiffness, T_h to its column, and D
 /// between them, both scaled to the stiffness C_h^2 / (C_h^2 diag(K)^-1) of
 /// what they hold: as everywhere a residual is a force, and an unknown a
-/// length. The matrix that is left is
-/// indefinite.
+/// length. The matrix that is left is indefinite.
 ///
 /// All of it is of one rank alone: its slave nodes' constraints, in all nodes'
 /// displacements.

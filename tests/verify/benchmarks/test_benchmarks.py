@@ -179,7 +179,8 @@ def test_locking():
 def test_solvers(monkeypatch):
     monkeypatch.setattr(bench_solvers, "RUNS", 1)
     rows = bench_solvers.main(["2"], sizes=[6]) + bench_solvers.main(["mixed-2"], sizes=[6])
-    assert [row["friction"] for row in rows] == [0.0, 0.3, 0.0, 0.3]
+    rows += bench_solvers.main(["side-3"], sizes=[4])
+    assert [row["friction"] for row in rows] == 3 * [0.0, 0.3]
     assert all(row["ratio"] > 0 for row in rows)
 
 
