@@ -563,15 +563,14 @@ void FreeBodies::note_neutral(const Motions& motions, std::vector<Rows> rows,
                               std::span<const double> forces,
                               std::span<const double> of_bulk)
 {
-  const Eigen::Index k = motions.N.cols();
   _pressed = std::sqrt(mesh::total(
       ranks(), (math::column(forces) - math::column(of_bulk)).squaredNorm()));
   // Where bodies are held the end of the step decides. At its begin contact may
   // have no forces yet
-  const double least = std::max(_pressed, math::column(pull).norm());
+  const double acting = std::max(_pressed, math::column(pull).norm());
   if (not _is_holding
       and (motions.N.transpose() * math::column(pull)).norm()
-              > std::max(_balanced, held_force_max * least))
+              > std::max(_balanced, held_force_max * acting))
     return;
   double size = std::numeric_limits<double>::infinity();
   for (const Rows& some : rows)
