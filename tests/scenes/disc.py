@@ -12,10 +12,11 @@ import numpy as np
 
 import contactx as cx
 import ufl
-from dolfinx import fem
 
 from meshes.build import build_mesh
+from scenes.materials import neo_hookean
 from scenes.problems import make_problem
+from story import displacement, elasticity
 
 WEIGHT = 0.005
 FINE, COARSE = 0.01, 0.15
@@ -47,18 +48,10 @@ class FreeDisc:
         options = {"Mesh.MeshSizeExtendFromBoundary": 0}
         data = build_mesh("disc", 2, recipe, MPI.COMM_WORLD, options)
         assert data.facet_tags is not None
-        domain = data.mesh
-        V = fem.functionspace(domain, ("Lagrange", 1, (2,)))
-        self.u, v = fem.Function(V), ufl.TestFunction(V)
-        mu, lame = 1 / 2.6, 0.3 / 1.3 / 0.4
-        G = ufl.Identity(2) + ufl.grad(self.u)
-        if linear:
-            strain = ufl.sym(ufl.grad(self.u))
-            energy = mu * ufl.inner(strain, strain) + lame / 2 * ufl.tr(strain) ** 2
-        else:
-            log = ufl.ln(ufl.det(G))
-            energy = mu / 2 * (ufl.inner(G, G) - 2 - 2 * log) + lame / 2 * log**2
-        F = ufl.derivative(energy * ufl.dx, self.u, v) + WEIGHT / np.pi * v[1] * ufl.dx
+        self.u = displacement(data.mesh)
+        v = ufl.TestFunction(self.u.function_space)
+        F = (elasticity if linear else neo_hookean)(self.u, 1.0, 0.3)
+        F += WEIGHT / np.pi * v[1] * ufl.dx
         ground = cx.Plane((0, 0), (0, 1)) if cup is None else cx.Sphere((0, cup), cup, hollow=True)
         self.contact = cx.Contact(cx.Surface(data.facet_tags, 1), ground)
         self.problem = make_problem(F, self.u, [self.contact])

@@ -63,6 +63,19 @@ bool choose(Matrix3d D, std::array<bool, 3>& gives, std::array<bool, 3>& stays)
   return true;
 }
 
+/// Gives the entries whose number has a place to a function of the entry and
+/// the place, and the others to others.
+template <class Use>
+void split(const Triplets& all, std::span<const std::int32_t> numbers,
+           std::span<const std::int32_t> place, Triplets& others, Use use)
+{
+  for (std::size_t e = 0; e < all.size(); ++e)
+    if (const std::int32_t at = place[numbers[e]]; at >= 0)
+      use(e, at);
+    else
+      others.add(all.rows[e], all.columns[e], all.values[e]);
+}
+
 /// Mean size of the diagonal where displacements are free.
 double mean_size(std::span<const double> diagonal,
                  std::span<const std::int8_t> free)
@@ -245,18 +258,18 @@ void Prescribed::hold(const Triplets& law, std::span<const std::int8_t> free,
   // The bulk's row of a prescribed displacement has a one
   for (const std::int32_t dof : _retained.dofs)
     left.stiffness.add(dof, dof, -1);
-  for (std::size_t e = 0; e < C.size(); ++e)
-    if (const std::int32_t at = place[C.rows[e]]; at >= 0)
-      left.stiffness.add(_retained.dofs[at], C.columns[e],
-                         _retained.row_scale[at] * C.values[e]);
-    else
-      left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
-  for (std::size_t e = 0; e < T.size(); ++e)
-    if (const std::int32_t at = place[T.columns[e]]; at >= 0)
-      left.stiffness.add(T.rows[e], _retained.dofs[at],
-                         _retained.scale[at] * T.values[e]);
-    else
-      left.traction.add(T.rows[e], T.columns[e], T.values[e]);
+  split(C, C.rows, place, left.constraint,
+        [&](std::size_t e, std::int32_t at)
+        {
+          left.stiffness.add(_retained.dofs[at], C.columns[e],
+                             _retained.row_scale[at] * C.values[e]);
+        });
+  split(T, T.columns, place, left.traction,
+        [&](std::size_t e, std::int32_t at)
+        {
+          left.stiffness.add(T.rows[e], _retained.dofs[at],
+                             _retained.scale[at] * T.values[e]);
+        });
   for (std::size_t e = 0; e < law.size(); ++e)
     left.stiffness.add(_retained.dofs[law.rows[e]],
                        _retained.dofs[law.columns[e]],
@@ -274,16 +287,10 @@ void Prescribed::take_out(std::size_t num_multipliers, std::size_t num_local)
 
   Blocks left;
   const Triplets &T = _blocks.traction, &C = _blocks.constraint;
-  for (std::size_t e = 0; e < T.size(); ++e)
-    if (const std::int32_t at = place[T.columns[e]]; at >= 0)
-      _T.add(T.rows[e], at, T.values[e]);
-    else
-      left.traction.add(T.rows[e], T.columns[e], T.values[e]);
-  for (std::size_t e = 0; e < C.size(); ++e)
-    if (const std::int32_t at = place[C.rows[e]]; at >= 0)
-      _C.add(at, C.columns[e], C.values[e]);
-    else
-      left.constraint.add(C.rows[e], C.columns[e], C.values[e]);
+  split(T, T.columns, place, left.traction, [&](std::size_t e, std::int32_t at)
+        { _T.add(T.rows[e], at, T.values[e]); });
+  split(C, C.rows, place, left.constraint, [&](std::size_t e, std::int32_t at)
+        { _C.add(at, C.columns[e], C.values[e]); });
 
   // Of the multipliers concerned only the others are left
   auto is_left = [this](std::int32_t i) { return _is_given[i] == 0; };
